@@ -17,7 +17,6 @@ struct Error {
     degenerate_triangle,   ///< a triangle has no area
     duplicate_triangle,    ///< two triangles have the same three corners
     non_manifold_edge,     ///< more than two triangles share an edge
-    inconsistent_winding,  ///< two triangles pass their common edge in the same direction
     bad_merge_distances,   ///< δc ≥ δn ≥ δe > δf does not hold
     too_large,             ///< more elements than an index can count
     bad_parameter          ///< any other value outside its range
