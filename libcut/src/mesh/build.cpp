@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "cut/hybrid_mesh.hpp"
+#include "mesh/vector3.hpp"
 
 namespace cut {
 namespace {
@@ -52,7 +53,7 @@ bool check_elements(const TriangleMesh& mesh, Error& error) {
     }
     const Eigen::Vector3d a = mesh.positions[t[1]] - mesh.positions[t[0]];
     const Eigen::Vector3d b = mesh.positions[t[2]] - mesh.positions[t[0]];
-    if (a.cross(b).squaredNorm() > 0) continue;
+    if (squared_length(cross(a, b)) > 0) continue;
     error = {Error::Kind::degenerate_triangle, name_triangle(i) + " has no area", i};
     return false;
   }
