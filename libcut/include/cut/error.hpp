@@ -11,15 +11,16 @@ namespace cut {
 /// What went wrong, in one line for a person, and the element that it is about.
 struct Error {
   enum class Kind {
-    empty_mesh,            ///< no triangle is left to work on
-    index_out_of_range,    ///< a triangle names a point that does not exist
-    not_finite,            ///< a coordinate is NaN or infinite
-    degenerate_triangle,   ///< a triangle has no area
-    duplicate_triangle,    ///< two triangles have the same three corners
-    non_manifold_edge,     ///< more than two triangles share an edge
-    bad_merge_distances,   ///< δc ≥ δn ≥ δe > δf does not hold
-    too_large,             ///< more elements than an index can count
-    bad_parameter          ///< any other value outside its range
+    empty_mesh,           ///< no triangle is left to work on
+    index_out_of_range,   ///< a triangle names a point that does not exist
+    not_finite,           ///< a coordinate is NaN or infinite
+    degenerate_triangle,  ///< a triangle has no area
+    duplicate_triangle,   ///< two triangles have the same three corners
+    non_manifold_edge,    ///< more than two triangles share an edge
+    bad_merge_distances,  ///< δc ≥ δn ≥ δe > δf does not hold
+    too_large,            ///< more elements than an index can count
+    unstable,             ///< the simulation blew up
+    bad_parameter         ///< any other value outside its range
   };
   Kind kind;
   std::string message;
