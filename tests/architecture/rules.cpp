@@ -1,0 +1,179 @@
+#include "architecture/rules.hpp"
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+namespace architecture {
+namespace {
+
+using Names = std::vector<std::string_view>;
+
+struct Layer {
+  std::string_view name;
+  Names sees;  // besides itself
+};
+
+/// From left to right: no layer sees one that stands to its right, and `simulation` stands beside the ladder.
+const std::vector<Layer> layers{
+    {"spatial", {}},
+    {"base", {"spatial"}},
+    {"lattice", {"spatial", "base"}},
+    {"mesh", {"spatial", "base", "lattice"}},
+    {"changes", {"spatial", "base", "lattice", "mesh"}},
+    {"validate", {"spatial", "base", "lattice", "mesh", "changes"}},
+    {"cutting", {"spatial", "base", "lattice", "mesh", "changes", "validate"}},
+    {"simulation", {"spatial", "base", "lattice", "mesh", "changes"}},
+};
+
+/// The layer of each header in libcut/include/cut. A new header gets its row here.
+const std::map<std::string_view, std::string_view> public_headers{
+    {"error", "base"},
+    {"ids", "base"},
+    {"triangle_mesh", "base"},
+
+    {"lattice_point", "lattice"},
+
+    {"arrangement", "mesh"},
+    {"buffers", "mesh"},
+    {"hybrid_mesh", "mesh"},
+
+    {"changes", "changes"},
+
+    {"validate", "validate"},
+
+    {"blade", "cutting"},
+    {"cutter", "cutting"},
+
+    {"material", "simulation"},
+    {"simulation", "simulation"},
+};
+
+/// Test folders that test a step from within, and so may see libcut/src.
+const std::set<std::string_view> step_tests{"tests/lattice", "tests/cut", "tests/cutting",
+                                            "tests/simulation"};
+/// Test folders that may see the sources of the command line tool.
+const std::set<std::string_view> app_tests{"tests/app", "tests/fuzz"};
+
+std::string_view stem(std::string_view path) {
+  path.remove_prefix(path.rfind('/') + 1);
+  return path.substr(0, path.find('.'));
+}
+
+/// The first `count` parts of a path: its folder as far as the rules care.
+std::string_view first_parts(std::string_view path, int count) {
+  std::size_t end = 0;
+  for (; count > 0 && end != std::string_view::npos; --count) end = path.find('/', end == 0 ? 0 : end + 1);
+  return path.substr(0, end);
+}
+
+/// The layer of a file of the libraries; empty when no rule gives it one.
+std::string_view layer_of(std::string_view path) {
+  constexpr std::string_view sources = "libcut/src/";
+  if (path.starts_with("libspatial/")) return "spatial";
+  if (path.starts_with(sources)) {
+    const std::string_view inner = path.substr(sources.size());
+    const std::string_view folder = inner.substr(0, inner.find('/'));
+    const bool known = std::ranges::any_of(layers, [&](const Layer& layer) { return layer.name == folder; });
+    if (known && folder != "spatial") return folder;
+    if (folder != inner) return {};
+  }
+  // A public header, or the source beside libcut/src that implements it.
+  const auto row = public_headers.find(stem(path));
+  return row == public_headers.end() ? std::string_view{} : row->second;
+}
+
+bool in_library(std::string_view path) {
+  return path.starts_with("libspatial/") || path.starts_with("libcut/");
+}
+
+/// What a file of the libraries may take from elsewhere: the standard library, and Eigen in libcut.
+bool may_use_external(std::string_view path, std::string_view name) {
+  // Files and logging belong to the programs.
+  const std::set<std::string_view> not_in_libraries{"fstream", "iostream", "filesystem", "print"};
+  if (not_in_libraries.contains(name)) return false;
+  if (name.find_first_of("/.") == std::string_view::npos) return true;
+  if (name.ends_with("intrin.h")) return true;
+  if (path.starts_with("libspatial/include/spatial/adapt/"))
+    return name.starts_with("Eigen/") || name.starts_with("boost/geometry");
+  return path.starts_with("libcut/") && (name.starts_with("Eigen/") || name.starts_with("tbb/"));
+}
+
+/// The rule that an include breaks, in words; empty when it breaks none.
+std::string broken_rule(const std::string& path, const Include& include) {
+  const std::string_view target = include.target;
+  if (target.empty()) {
+    if (include.quoted) return "names no file of the project";
+    if (in_library(path) && !may_use_external(path, include.name))
+      return "is not for the libraries: they use the standard library without files and streams, and libcut "
+             "Eigen";
+    return {};
+  }
+  if (in_library(path)) {
+    if (!in_library(target)) return "the libraries know nothing of programs, tests and benchmarks";
+    if (path.starts_with("libspatial/") && target.starts_with("libspatial/include/spatial/adapt/"))
+      return "the adapters are for users to include, nothing else does";
+    const std::string_view from = layer_of(path);
+    const std::string_view to = layer_of(target);
+    if (from.empty() || to.empty() || from == to) return {};  // a file without layer is reported on its own
+    const auto layer = std::ranges::find(layers, from, &Layer::name);
+    if (std::ranges::find(layer->sees, to) != layer->sees.end()) return {};
+    return "layer " + std::string(from) + " does not see " + std::string(to);
+  }
+  const std::string_view folder = first_parts(path, 2);
+  const std::string_view top = first_parts(path, 1);
+  if (target.starts_with("libcut/src/") && !step_tests.contains(folder))
+    return "only the tests of a step see libcut/src, everybody else the public headers";
+  if (target.starts_with("apps/snip/") && folder != "apps/snip" && !app_tests.contains(folder))
+    return "only the command line tool and its tests see apps/snip";
+  for (const std::string_view other : {"tests", "bench", "examples"})
+    if (first_parts(target, 1) == other && top != other)
+      return "nothing outside of " + std::string(other) + " sees it";
+  return {};
+}
+
+/// Depth-first search; `state` is 1 while a file is on the way from the root, 2 when it is done.
+void find_circles(const std::map<std::string, std::vector<Include>>& graph, const std::string& path,
+                  std::map<std::string, int>& state, std::vector<std::string>& way,
+                  std::vector<std::string>& found) {
+  state[path] = 1;
+  way.push_back(path);
+  for (const Include& include : graph.at(path)) {
+    if (include.target.empty()) continue;
+    if (state[include.target] == 1) {
+      std::string circle = "include circle: ";
+      for (auto step = std::ranges::find(way, include.target); step != way.end(); ++step)
+        circle += *step + " -> ";
+      found.push_back(circle + include.target);
+    } else if (state[include.target] == 0) {
+      find_circles(graph, include.target, state, way, found);
+    }
+  }
+  way.pop_back();
+  state[path] = 2;
+}
+
+}  // namespace
+
+std::vector<std::string> violations(const SourceTree& tree) {
+  std::vector<std::string> found;
+  std::map<std::string, std::vector<Include>> graph;
+  for (const auto& [path, content] : tree) {
+    graph[path] = includes_of(tree, path);
+    if (in_library(path) && layer_of(path).empty())
+      found.push_back(path +
+                      ": has no layer. Give it a row in `public_headers` of tests/architecture/rules.cpp, "
+                      "or put it into the folder of its layer below libcut/src");
+    for (const Include& include : graph[path])
+      if (const std::string rule = broken_rule(path, include); !rule.empty())
+        found.push_back(path + ":" + std::to_string(include.line) + ": includes " + include.name + ": " +
+                        rule);
+  }
+  std::map<std::string, int> state;
+  std::vector<std::string> way;
+  for (const auto& [path, includes] : graph)
+    if (state[path] == 0) find_circles(graph, path, state, way, found);
+  return found;
+}
+
+}  // namespace architecture
