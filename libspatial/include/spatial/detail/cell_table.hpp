@@ -1,0 +1,81 @@
+/// @file
+/// A map from grid cells to a number, flat and open-addressed. In: integer cell coordinates. Out: the number
+/// stored.
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace spatial::detail {
+
+template <std::size_t D>
+class CellTable {
+ public:
+  using Key = std::array<std::int32_t, D>;
+  static constexpr std::uint32_t none = 0xffffffffu;
+
+  /// The number of a cell, or `none`.
+  [[nodiscard]] std::uint32_t find(const Key& key) const {
+    if (entries_.empty()) return none;
+    for (std::size_t i = hash(key) >> shift_;; i = (i + 1) & (entries_.size() - 1)) {
+      const Entry& entry = entries_[i];
+      if (!entry.used) return none;
+      if (entry.key == key) return entry.number;
+    }
+  }
+
+  /// The number of a cell, to be changed; a new cell has `none`.
+  std::uint32_t& entry(const Key& key) {
+    if (2 * (used_ + 1) > entries_.size()) grow();
+    Entry& found = place(key);
+    if (!found.used) {
+      found = {key, none, true};
+      ++used_;
+    }
+    return found.number;
+  }
+
+  void clear() {
+    entries_.clear();
+    used_ = 0;
+  }
+
+ private:
+  struct Entry {
+    Key key;
+    std::uint32_t number;
+    bool used;
+  };
+
+  static std::uint64_t hash(const Key& key) {
+    std::uint64_t h = 0;
+    for (const std::int32_t k : key) {
+      h = (h ^ static_cast<std::uint32_t>(k)) * 0x9e3779b97f4a7c15u;
+      h ^= h >> 32;
+    }
+    return h * 0x9e3779b97f4a7c15u;
+  }
+  Entry& place(const Key& key) {
+    std::size_t i = hash(key) >> shift_;
+    while (entries_[i].used && entries_[i].key != key) i = (i + 1) & (entries_.size() - 1);
+    return entries_[i];
+  }
+  void grow() {
+    std::vector<Entry> old = std::move(entries_);
+    const std::size_t size = old.empty() ? 16 : old.size() * 2;
+    entries_.assign(size, Entry{});
+    shift_ = 64;
+    for (std::size_t s = size; s > 1; s /= 2) --shift_;
+    for (const Entry& entry : old) {
+      if (entry.used) place(entry.key) = entry;
+    }
+  }
+
+  std::vector<Entry> entries_;
+  std::size_t used_ = 0;
+  unsigned shift_ = 63;
+};
+
+}  // namespace spatial::detail

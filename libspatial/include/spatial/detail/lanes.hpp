@@ -1,0 +1,154 @@
+/// @file
+/// Tests one box against many at once. The many are given as rows of coordinates (leaf.hpp, node.hpp). In:
+/// rows and two bounds per axis. Out: one bit per box. Plain C++ where the compiler has no x86 vectors; same
+/// answer everywhere.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+
+#include "../box.hpp"
+
+namespace spatial::detail {
+
+/// Rows of coordinates: row r begins at first + r * stride; min[a] is row a, max[a] is row D + a.
+template <class T, std::size_t D>
+struct Rows {
+  const T* first;
+  std::size_t stride;
+  [[nodiscard]] T min(std::size_t axis, std::size_t i) const { return first[axis * stride + i]; }
+  [[nodiscard]] T max(std::size_t axis, std::size_t i) const { return first[(D + axis) * stride + i]; }
+  [[nodiscard]] Box<T, D> box(std::size_t i) const {
+    Box<T, D> result;
+    for (std::size_t a = 0; a < D; ++a) {
+      result.min[a] = min(a, i);
+      result.max[a] = max(a, i);
+    }
+    return result;
+  }
+  [[nodiscard]] Rows from(std::size_t i) const { return {first + i, stride}; }
+};
+
+/// As many boxes as one mask has bits.
+inline constexpr std::size_t mask_bits = 32;
+
+#if defined(__GNUC__) && defined(__SSE2__)
+#define SPATIAL_WIDE 1
+template <class T>
+struct Pack {
+  static constexpr std::size_t width = 0;
+};
+#if defined(__AVX__)
+template <>
+struct Pack<float> {
+  static constexpr std::size_t width = 8;
+  typedef float V __attribute__((vector_size(32)));
+  typedef std::int32_t M __attribute__((vector_size(32)));
+  static std::uint32_t bits(M m) {
+    return static_cast<std::uint32_t>(__builtin_ia32_movmskps256(reinterpret_cast<V>(m)));
+  }
+};
+template <>
+struct Pack<double> {
+  static constexpr std::size_t width = 4;
+  typedef double V __attribute__((vector_size(32)));
+  typedef std::int64_t M __attribute__((vector_size(32)));
+  static std::uint32_t bits(M m) {
+    return static_cast<std::uint32_t>(__builtin_ia32_movmskpd256(reinterpret_cast<V>(m)));
+  }
+};
+#else
+template <>
+struct Pack<float> {
+  static constexpr std::size_t width = 4;
+  typedef float V __attribute__((vector_size(16)));
+  typedef std::int32_t M __attribute__((vector_size(16)));
+  static std::uint32_t bits(M m) {
+    return static_cast<std::uint32_t>(__builtin_ia32_movmskps(reinterpret_cast<V>(m)));
+  }
+};
+template <>
+struct Pack<double> {
+  static constexpr std::size_t width = 2;
+  typedef double V __attribute__((vector_size(16)));
+  typedef std::int64_t M __attribute__((vector_size(16)));
+  static std::uint32_t bits(M m) {
+    return static_cast<std::uint32_t>(__builtin_ia32_movmskpd(reinterpret_cast<V>(m)));
+  }
+};
+#endif
+#endif
+
+inline std::uint32_t first_bits(std::size_t count) {
+  return count >= mask_bits ? 0xffffffffu : (1u << count) - 1u;
+}
+
+/// The boxes with min <= high and max >= low on every axis: with low, high = q.min, q.max those that touch q;
+/// with q.max, q.min those that cover it. @pre count <= mask_bits
+template <class T, std::size_t D>
+std::uint32_t reaching(const Rows<T, D>& rows, std::size_t count, const Point<T, D>& low,
+                       const Point<T, D>& high) {
+#ifdef SPATIAL_WIDE
+  if constexpr (Pack<T>::width != 0) {
+    using P = Pack<T>;
+    using V = typename P::V;
+    std::uint32_t result = 0;
+    for (std::size_t i = 0; i < count; i += P::width) {
+      typename P::M inside{};
+      for (std::size_t a = 0; a < D; ++a) {
+        V least, greatest;
+        std::memcpy(&least, rows.first + a * rows.stride + i, sizeof(V));
+        std::memcpy(&greatest, rows.first + (D + a) * rows.stride + i, sizeof(V));
+        const auto both = (least <= high[a]) & (greatest >= low[a]);
+        inside = a == 0 ? both : inside & both;
+      }
+      result |= P::bits(inside) << i;
+    }
+    return result & first_bits(count);
+  }
+#endif
+  std::uint32_t result = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    bool inside = true;
+    for (std::size_t a = 0; a < D; ++a)
+      inside inside &= (rows.min(a, i) <= high[a]) & (rows.max(a, i) >= low[a]);
+    = rows.min(a, i) <= high[a] && rows.max(a, i) >= low[a];
+    result |= static_cast<std::uint32_t>(inside) << i;
+  }
+  return result;
+}
+
+/// The boxes with low <= min and max <= high on every axis. @pre count <= mask_bits
+template <class T, std::size_t D>
+std::uint32_t covered(const Rows<T, D>& rows, std::size_t count, const Point<T, D>& low,
+                      const Point<T, D>& high) {
+#ifdef SPATIAL_WIDE
+  if constexpr (Pack<T>::width != 0) {
+    using P = Pack<T>;
+    using V = typename P::V;
+    std::uint32_t result = 0;
+    for (std::size_t i = 0; i < count; i += P::width) {
+      typename P::M inside{};
+      for (std::size_t a = 0; a < D; ++a) {
+        V least, greatest;
+        std::memcpy(&least, rows.first + a * rows.stride + i, sizeof(V));
+        std::memcpy(&greatest, rows.first + (D + a) * rows.stride + i, sizeof(V));
+        const auto both = (least >= low[a]) & (greatest <= high[a]);
+        inside = a == 0 ? both : inside & both;
+      }
+      result |= P::bits(inside) << i;
+    }
+    return result & first_bits(count);
+  }
+#endif
+  std::uint32_t result = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    bool inside = true;
+    for (std::size_t a = 0; a < D; ++a) inside &= rows.min(a, i) >= low[a] && rows.max(a, i) <= high[a];
+    result |= static_cast<std::uint32_t>(inside) << i;
+  }
+  return result;
+}
+
+}  // namespace spatial::detail

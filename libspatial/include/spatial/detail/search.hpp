@@ -1,0 +1,59 @@
+/// @file
+/// Walks the tree for a predicate (§5.1: "query for all elements within a specified area"). In: a tree and a
+/// bound predicate. Out: every hit, to a function, or one at a time from a Cursor.
+#pragma once
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#include "bound_predicates.hpp"
+#include "node.hpp"
+#include "small_stack.hpp"
+
+namespace spatial::detail {
+
+template <class Core>
+using CoreRows = Rows<typename Core::Scalar, Core::dimension>;
+
+/// Deep enough for any tree of usual data; a deeper one takes memory from the heap.
+inline constexpr std::size_t stack_inline = 128;
+
+template <class Core>
+CoreRows<Core> rows_of(const typename Core::NodeType& node) {
+  return {&node.rows[0][0], Core::NodeType::lanes};
+}
+template <class Core>
+CoreRows<Core> rows_of(const typename Core::LeafType& leaf) {
+  return {leaf.row(0), leaf.capacity};
+}
+
+/// Calls `visit(leaf, position)` for every hit until it returns false. Returns whether all were visited.
+template <class Core, class Bound, class Visit>
+bool search(const Core& core, const Bound& predicate, Visit&& visit) {
+  if (core.root().empty() || !predicate.may(core.root_box())) return true;
+  SmallStack<ChildRef, stack_inline> stack;
+  stack.push(core.root());
+  while (!stack.empty()) {
+    const ChildRef here = stack.pop();
+    if (here.is_leaf()) {
+      const auto& leaf = core.leaf(here.index());
+      const auto* values = leaf.values();
+      for (std::uint32_t begin = 0; begin < leaf.count; begin += mask_bits) {
+        const std::uint32_t count = leaf.count - begin < mask_bits ? leaf.count - begin : mask_bits;
+        std::uint32_t hits = predicate.hits(rows_of<Core>(leaf).from(begin), values + begin, count);
+        for (; hits != 0; hits &= hits - 1) {
+          if (!visit(leaf, begin + static_cast<std::uint32_t>(std::countr_zero(hits)))) return false;
+        }
+      }
+    } else {
+      const auto& node = core.node(here.index());
+      const std::uint32_t may = predicate.may_mask(rows_of<Core>(node), 3);
+      for (std::uint32_t side = 3; side-- > 0;) {
+        if (((may >> side) & 1u) != 0 && !node.child[side].empty()) stack.push(node.child[side]);
+      }
+    }
+  }
+  return true;
+}
+
+}  // namespace spatial::detail

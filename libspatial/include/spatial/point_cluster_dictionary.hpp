@@ -1,0 +1,192 @@
+/// @file
+/// The point cluster dictionary (PCD, §5.2): merges points within a distance. No two cluster centres are
+/// within that distance of each other, so that a cell of the grid holds few of them and every look-up takes
+/// constant time. In: points and values. Out: clusters.
+///
+/// The paper nests one dictionary per axis; here one open-addressed table maps a cell to the first of its
+/// centres, which are chained.
+#pragma once
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "box.hpp"
+#include "detail/cell_table.hpp"
+
+namespace spatial {
+
+/// A cluster of a PointClusterDictionary, by its number in order of insertion.
+struct ClusterId {
+  static constexpr std::uint32_t invalid_index = 0xffffffffu;
+  std::uint32_t index = invalid_index;
+  [[nodiscard]] constexpr bool valid() const { return index != invalid_index; }
+  friend constexpr bool operator==(ClusterId, ClusterId) = default;
+};
+
+/// What insert_or_merge did. The cluster is invalid if the point was refused.
+struct MergeResult {
+  ClusterId cluster;
+  bool inserted = false;
+};
+
+/// @tparam T float or double
+/// @tparam D 2 or 3 (any number works; a look-up visits 3^D cells)
+template <class T, std::size_t D, class Value>
+class PointClusterDictionary {
+  static_assert(std::is_floating_point_v<T>);
+
+ public:
+  using point_type = Point<T, D>;
+
+  /// @param merge_distance δm. Points are refused unless sqrt(smallest normal double) < δm < sqrt(largest
+  /// double).
+  explicit PointClusterDictionary(T merge_distance)
+      : distance_(static_cast<double>(merge_distance)),
+        squared_(distance_ * distance_),
+        cells_per_length_(1 / (distance_ * (1 + relative_slack))) {
+    usable_ = distance_ > 0 && squared_ >= std::numeric_limits<double>::min() &&
+              squared_ <= std::numeric_limits<double>::max();
+  }
+
+  [[nodiscard]] T merge_distance() const { return static_cast<T>(distance_); }
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] bool empty() const { return size_ == 0; }
+
+  /// True if the grid can hold the point: no NaN, and each coordinate within ±2^30 merge distances.
+  [[nodiscard]] bool accepts(const point_type& point) const {
+    bool fits = usable_;
+    for (const T x : point) fits &= std::abs(static_cast<double>(x) * cells_per_length_) <= index_limit;
+    return fits;
+  }
+
+  /// The cluster whose centre is nearest to the point, within δm, ties going to the oldest; else a new
+  /// cluster with this centre and value. O(1).
+  /// @return an invalid cluster, and no change, if the point is not accepted
+  MergeResult insert_or_merge(const point_type& point, Value value) {
+    if (!accepts(point)) return {};
+    const ClusterId near = find_nearest(point);
+    if (near.valid()) return {near, false};
+    const auto id = static_cast<std::uint32_t>(clusters_.size());
+    clusters_.push_back({std::move(value), point, true});
+    centres_.push_back({point, id, none});
+    link(static_cast<std::uint32_t>(centres_.size() - 1));
+    ++size_;
+    return {{id}, true};
+  }
+
+  /// The nearest cluster within δm, or an invalid id. O(1).
+  [[nodiscard]] ClusterId find_nearest(const point_type& point) const {
+    ClusterId best;
+    double best_squared = std::numeric_limits<double>::infinity();
+    std::uint32_t best_centre = none;
+    visit_near(point, [&](std::uint32_t centre, double squared) {
+      if (squared < best_squared || (squared == best_squared && centre < best_centre)) {
+        best = {centres_[centre].cluster};
+        best_squared = squared;
+        best_centre = centre;
+      }
+    });
+    return best;
+  }
+
+  /// Calls `visitor(ClusterId)` for every centre within δm of the point, in no particular order. O(1).
+  template <class Visitor>
+  void for_each_within(const point_type& point, Visitor&& visitor) const {
+    visit_near(point, [&](std::uint32_t centre, double) { visitor(ClusterId{centres_[centre].cluster}); });
+  }
+
+  /// @pre the cluster is in the dictionary
+  [[nodiscard]] const point_type& center(ClusterId cluster) const { return clusters_[cluster.index].center; }
+  [[nodiscard]] const Value& value(ClusterId cluster) const { return clusters_[cluster.index].value; }
+  [[nodiscard]] Value& value(ClusterId cluster) { return clusters_[cluster.index].value; }
+
+ private:
+  using Key = std::array<std::int32_t, D>;
+  static constexpr std::uint32_t none = 0xffffffffu;
+  static constexpr double index_limit = 1073741824.0;  // 2^30, so that a neighbour's index fits too
+  // δf / δm. Rounding moves x / w by at most 2^-53 of 2^30, far less than this; so points within δm of each
+  // other are at most one cell apart.
+  static constexpr double relative_slack = 1.0 / (1 << 20);
+
+  struct Cluster {
+    Value value;
+    point_type center;
+    bool alive;
+  };
+  struct Centre {
+    point_type point;
+    std::uint32_t cluster;
+    std::uint32_t next;  // in the same cell
+  };
+
+  [[nodiscard]] Key key_of(const point_type& point) const {
+    Key key{};
+    for (std::size_t a = 0; a < D; ++a) {
+      key[a] = static_cast<std::int32_t>(std::floor(static_cast<double>(point[a]) * cells_per_length_));
+    }
+    return key;
+  }
+  [[nodiscard]] static double squared_distance(const point_type& p, const point_type& q) {
+    double sum = 0;
+    for (std::size_t a = 0; a < D; ++a) {
+      const double d = static_cast<double>(p[a]) - static_cast<double>(q[a]);
+      sum += d * d;
+    }
+    return sum;
+  }
+
+  void link(std::uint32_t centre) {
+    std::uint32_t& first = table_.entry(key_of(centres_[centre].point));
+    centres_[centre].next = first;
+    first = centre;
+  }
+
+  template <class Visit>
+  void visit_near(const point_type& point, Visit&& visit) const {
+    if (!accepts(point)) return;
+    const Key home = key_of(point);
+    Key key{};
+    std::size_t cells = 1;
+    for (std::size_t a = 0; a < D; ++a) cells *= 3;
+    for (std::size_t cell = 0; cell < cells; ++cell) {
+      std::size_t rest = cell;
+      for (std::size_t a = 0; a < D; ++a, rest /= 3)
+        key[a] = home[a] + static_cast<std::int32_t>(rest % 3) - 1;
+      for (std::uint32_t c = table_.find(key); c != none; c = centres_[c].next) {
+        const double squared = squared_distance(point, centres_[c].point);
+        if (squared <= squared_) visit(c, squared);
+      }
+    }
+  }
+
+  double distance_;
+  double squared_;
+  double cells_per_length_;
+  bool usable_ = false;
+  detail::CellTable<D> table_;
+  std::vector<Cluster> clusters_;
+  std::vector<Centre> centres_;
+  std::size_t size_ = 0;
+};
+
+/// Merges points within `merge_distance`, in order: result[i] is the index, in `points`, of the point that
+/// point i was merged to (its own if it was not). A point that is not accepted keeps its own index. O(n).
+template <class T, std::size_t D>
+[[nodiscard]] std::vector<std::uint32_t> weld(const std::vector<Point<T, D>>& points, T merge_distance) {
+  PointClusterDictionary<T, D, std::uint32_t> dictionary(merge_distance);
+  std::vector<std::uint32_t> result;
+  result.reserve(points.size());
+  for (const Point<T, D>& point : points) {
+    const auto own = static_cast<std::uint32_t>(result.size());
+    const MergeResult merged = dictionary.insert_or_merge(point, own);
+    result.push_back(merged.cluster.valid() ? dictionary.value(merged.cluster) : own);
+  }
+  return result;
+}
+
+}  // namespace spatial
