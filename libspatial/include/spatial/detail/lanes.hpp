@@ -111,9 +111,7 @@ std::uint32_t reaching(const Rows<T, D>& rows, std::size_t count, const Point<T,
   std::uint32_t result = 0;
   for (std::size_t i = 0; i < count; ++i) {
     bool inside = true;
-    for (std::size_t a = 0; a < D; ++a)
-      inside inside &= (rows.min(a, i) <= high[a]) & (rows.max(a, i) >= low[a]);
-    = rows.min(a, i) <= high[a] && rows.max(a, i) >= low[a];
+    for (std::size_t a = 0; a < D; ++a) inside &= rows.min(a, i) <= high[a] && rows.max(a, i) >= low[a];
     result |= static_cast<std::uint32_t>(inside) << i;
   }
   return result;
