@@ -54,18 +54,19 @@ void check_ancestors(const HybridMesh& mesh, Report& report) {
       report.add(rule, name("ancestor edge", e) + " does not list the triangles that have it");
   }
 
-  std::size_t incidences = 0;
-  for (std::size_t n = 0; n < a.rest_positions.size(); ++n) {
-    AncestorId previous;
+  std::vector<std::uint8_t> listed(3 * a.triangles.size(), 0);  // per corner of each triangle
+  for (std::size_t n = 0; n < a.rest_positions.size(); ++n)
     for (const AncestorId t : a.triangles_around(AncestorNodeId{n})) {
-      const auto& nodes = a.triangles[t.index()].nodes;
-      if ((nodes[0].index() != n && nodes[1].index() != n && nodes[2].index() != n) || t == previous)
+      const std::size_t corner = a.local_node(t, AncestorNodeId{n});
+      if (a.triangles[t.index()].nodes[corner].index() != n)
         report.add(rule, name("incidences of ancestor node", n) + " list a triangle that is not there");
-      previous = t;
-      ++incidences;
+      else
+        ++listed[3 * t.index() + corner];
     }
-  }
-  if (incidences != 3 * a.triangles.size()) report.add(rule, "a triangle is missing in the incidences");
+  for (std::size_t c = 0; c < listed.size(); ++c)
+    if (listed[c] != 1)
+      report.add(rule, name("ancestor", c / 3) + " is listed " + std::to_string(listed[c]) +
+                           " times at its corner " + std::to_string(c % 3));
 }
 
 }  // namespace cut::validation
