@@ -1,0 +1,30 @@
+/// @file
+/// What the cloth is made of, and what a cut does to it (§3.1; docs/decisions.md, "Conserving material").
+#pragma once
+#include <cstdint>
+
+namespace cut {
+
+/// What becomes of mass and springs where a cut copies physics nodes.
+enum class MaterialMode : std::uint8_t {
+  /// Every fragment carries the part of mass and springs that its render polygon stands for: for corner i the
+  /// weight w_i = ∫_f N_i / ∫_T N_i of fragment f in triangle T, N_i the barycentric coordinate. A fragment's
+  /// share of a spring between corners i and j is min(w_i, w_j). Mass, centre of mass and momentum are the
+  /// same before and after a cut, and no cut shrinks `Simulation::cut_proof_time_step`. Anchors stay with the
+  /// copies that render the anchored node.
+  conserving,
+  /// Copies are full copies, as in the paper: a cut makes cloth heavier and stiffer, and copies an anchor to
+  /// pieces that do not contain it (§6, §7).
+  paper
+};
+
+/// Mass-spring-damper material of a whole cloth. Any consistent units; SI are given.
+struct Material {
+  MaterialMode mode = MaterialMode::conserving;
+  double density = 0.2;  ///< mass per area [kg/m²], > 0; each node carries a third of the triangles around it
+  double stiffness = 100;  ///< k of every uncut spring [N/m], >= 0
+  double damping = 0.01;   ///< c of every uncut spring [N·s/m], >= 0
+  bool operator==(const Material&) const = default;
+};
+
+}  // namespace cut

@@ -1,0 +1,100 @@
+// Takes over a cut (§4.9, "changes are propagated to the MSDM simulation"). In: the change set and the mesh
+// after it. Out: arrays with new entries for copied nodes and changed springs. Only what the change set
+// names, and in conserving mode the triangles around it, is touched.
+#include <algorithm>
+
+#include "cut/simulation.hpp"
+#include "mesh/vector3.hpp"
+
+namespace cut {
+namespace {
+
+/// Summed up as the step does it, so that a spring at rest has no force at all.
+double rest_length(const AncestorMesh& ancestors, AncestorEdgeId edge) {
+  const auto& ends = ancestors.edges[edge.index()].nodes;
+  return length(ancestors.rest_positions[ends[1].index()] - ancestors.rest_positions[ends[0].index()]);
+}
+
+template <class T>
+void sort_unique(std::vector<T>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+/// The triangles of the uncut mesh whose fragments are new or have another shape or other nodes. A fragment
+/// that only lost area needs no entry of its own: another one of the same ancestor gained it.
+std::vector<AncestorId> touched_ancestors(const Changes& changes, const HybridMesh& mesh) {
+  std::vector<AncestorId> touched;
+  const auto add = [&](AncestorId ancestor) {
+    if (ancestor.valid()) touched.push_back(ancestor);
+  };
+  const auto add_triangle = [&](TriangleId t) {
+    if (t.valid()) add(mesh.buffers.triangles[t.index()].ancestor);
+  };
+  for (const auto& entry : changes.triangles.entries) add(entry.value.ancestor);
+  for (const auto& entry : changes.render_vertices.entries) add_triangle(entry.value.triangle);
+  for (const auto& entry : changes.render_triangles.entries) add_triangle(entry.value.triangle);
+  sort_unique(touched);
+  return touched;
+}
+
+}  // namespace
+
+std::optional<Error> Simulation::apply(const Changes& changes, const HybridMesh& mesh) {
+  if (changes.empty()) return std::nullopt;
+  if (changes.version_before != topology_version_ || changes.version_after != mesh.topology_version)
+    return Error{Error::Kind::bad_parameter,
+                 "the change set does not lead from the cut that the simulation stands at to the mesh's", 0};
+  resize(mesh);
+  for (const auto& entry : changes.springs.entries) set_spring(SpringId{entry.index}, mesh);
+  copy_nodes(changes);
+  if (material_.mode == MaterialMode::conserving) take_over_fragments(changes, mesh);
+  topology_version_ = changes.version_after;
+  return std::nullopt;
+}
+
+/// Paper mode ends here: a copy is a full copy.
+void Simulation::copy_nodes(const Changes& changes) {
+  for (const NodeCopy& copy : changes.node_copies) {
+    const std::size_t to = copy.node.index(), from = copy.source.index();
+    velocities_[to] = velocities_[from];
+    anchored_[to] = anchored_[from];
+    mass_[to] = mass_[from];
+    inverse_mass_[to] = inverse_mass_[from];
+    if (!external_forces_.empty()) external_forces_[to] = external_forces_[from];
+  }
+}
+
+/// Takes over an entry of the mesh's springs, with the constants that it has uncut.
+void Simulation::set_spring(SpringId spring, const HybridMesh& mesh) {
+  const std::size_t i = spring.index();
+  const bool was_used = springs_.nodes[i][0] != springs_.nodes[i][1];
+  const Spring& value = mesh.buffers.springs[i];
+  const bool used = value.nodes[0].valid();
+  spring_count_ = spring_count_ + (used ? 1 : 0) - (was_used ? 1 : 0);
+  springs_.nodes[i] =
+      used ? std::array{value.nodes[0].value, value.nodes[1].value} : std::array<std::uint32_t, 2>{0, 0};
+  springs_.rest_length[i] = used ? rest_length(mesh.ancestors, value.edge) : 0;
+  springs_.stiffness[i] = used ? material_.stiffness : 0;
+  springs_.damping[i] = used ? material_.damping : 0;
+}
+
+void Simulation::take_over_fragments(const Changes& changes, const HybridMesh& mesh) {
+  const std::vector<AncestorId> touched = touched_ancestors(changes, mesh);
+  std::vector<AncestorNodeId> nodes;
+  std::vector<AncestorEdgeId> edges;
+  for (const auto& entry : changes.springs.entries)
+    if (entry.value.edge.valid()) edges.push_back(entry.value.edge);
+  for (const AncestorId t : touched) {
+    update_weights(mesh, t);
+    const Ancestor& ancestor = mesh.ancestors.triangles[t.index()];
+    nodes.insert(nodes.end(), ancestor.nodes.begin(), ancestor.nodes.end());
+    edges.insert(edges.end(), ancestor.edges.begin(), ancestor.edges.end());
+  }
+  sort_unique(nodes);
+  sort_unique(edges);
+  for (const AncestorNodeId node : nodes) update_copies(mesh, node);
+  for (const AncestorEdgeId edge : edges) update_springs(mesh, edge);
+}
+
+}  // namespace cut

@@ -1,0 +1,114 @@
+// What the fragments of cut triangles weigh and how stiff they are (docs/decisions.md, "Conserving
+// material"). Each function recomputes a triangle, all copies of a node or all copies of an edge from the
+// arrangements around it, in a fixed order: nothing drifts however often a place is cut.
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "cut/simulation.hpp"
+#include "lattice/weights.hpp"
+#include "simulation/rest_area.hpp"
+
+namespace cut {
+namespace {
+
+/// Whether a fragment's render polygon has corner i of its triangle.
+bool renders_corner(const Arrangement* arrangement, std::size_t polygon, std::size_t i) {
+  if (!arrangement) return true;
+  const auto& corners = arrangement->polygons[polygon].corners;
+  return std::any_of(corners.begin(), corners.end(), [&](const PolygonCorner& c) { return c.node == i; });
+}
+
+}  // namespace
+
+void Simulation::update_weights(const HybridMesh& mesh, AncestorId ancestor) {
+  const Arrangement* arrangement = mesh.arrangement(ancestor);
+  if (!arrangement) return;
+  std::vector<LatticePoint> points;
+  for (const RenderPolygon& polygon : arrangement->polygons) {
+    points.clear();
+    for (const PolygonCorner& corner : polygon.corners)
+      points.push_back(arrangement->nodes[corner.node].point);
+    weights_[polygon.triangle.index()] = lattice::corner_weights(points, polygon.loop_ends);
+  }
+}
+
+/// Mass and anchor of all copies of a node.
+void Simulation::update_copies(const HybridMesh& mesh, AncestorNodeId node) {
+  struct Share {
+    NodeId copy;
+    double mass;
+    bool rendered;
+  };
+  const bool conserving = material_.mode == MaterialMode::conserving;
+  std::vector<Share> shares;
+  double whole = 0;
+  for (const AncestorId t : mesh.ancestors.triangles_around(node)) {
+    const std::size_t i = mesh.ancestors.local_node(t, node);
+    const double third = material_.density * rest_area(mesh.ancestors, t) / 3;
+    whole += third;
+    for (std::size_t p = 0; p < mesh.fragment_count(t); ++p) {
+      const TriangleId fragment = mesh.fragment(t, p);
+      const NodeId copy = mesh.buffers.triangles[fragment.index()].nodes[i];
+      shares.push_back({copy, conserving ? third * weights_[fragment.index()][i] : 0,
+                        anchored(copy) && renders_corner(mesh.arrangement(t), p, i)});
+    }
+  }
+  std::stable_sort(shares.begin(), shares.end(),
+                   [](const Share& a, const Share& b) { return a.copy < b.copy; });
+  for (auto share = shares.begin(); share != shares.end();) {
+    Share sum = *share;
+    while (++share != shares.end() && share->copy == sum.copy) {
+      sum.mass += share->mass;
+      sum.rendered |= share->rendered;
+    }
+    if (conserving) anchored_[sum.copy.index()] = sum.rendered;
+    set_mass(sum.copy, conserving ? sum.mass : whole);
+  }
+}
+
+/// Stiffness and damping of all springs between copies of an edge's two nodes.
+void Simulation::update_springs(const HybridMesh& mesh, AncestorEdgeId edge) {
+  const auto& sides = mesh.ancestors.edges[edge.index()].triangles;
+  const double side = sides[0].valid() && sides[1].valid() ? 0.5 : 1;
+  std::vector<std::pair<std::array<NodeId, 2>, double>> shares;
+  for (const AncestorId t : sides) {
+    if (!t.valid()) continue;
+    const std::size_t i = mesh.ancestors.local_edge(t, edge);
+    std::size_t from = i, to = next_corner(i);
+    if (mesh.ancestors.reversed(t, i)) std::swap(from, to);
+    for (std::size_t p = 0; p < mesh.fragment_count(t); ++p) {
+      const TriangleId fragment = mesh.fragment(t, p);
+      const auto& nodes = mesh.buffers.triangles[fragment.index()].nodes;
+      const auto& weights = weights_[fragment.index()];
+      shares.push_back({{nodes[from], nodes[to]}, side * std::min(weights[from], weights[to])});
+    }
+  }
+  std::stable_sort(shares.begin(), shares.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  const auto set = [&](SpringId spring) {
+    const auto& nodes = mesh.buffers.springs[spring.index()].nodes;
+    auto share = std::lower_bound(shares.begin(), shares.end(), nodes,
+                                  [](const auto& a, const auto& b) { return a.first < b; });
+    double sum = 0;
+    for (; share != shares.end() && share->first == nodes; ++share) sum += share->second;
+    springs_.stiffness[spring.index()] = material_.stiffness * sum;
+    springs_.damping[spring.index()] = material_.damping * sum;
+  };
+  if (const EdgeState* state = mesh.edge_state(edge))
+    for (const SpringId spring : state->springs) set(spring);
+  else
+    set(SpringId{edge.index()});
+}
+
+void Simulation::anchor(AncestorNodeId node, const HybridMesh& mesh) {
+  for (const AncestorId t : mesh.ancestors.triangles_around(node)) {
+    const std::size_t i = mesh.ancestors.local_node(t, node);
+    const Arrangement* arrangement = mesh.arrangement(t);
+    for (std::size_t p = 0; p < mesh.fragment_count(t); ++p)
+      if (renders_corner(arrangement, p, i))
+        anchor(mesh.buffers.triangles[mesh.fragment(t, p).index()].nodes[i]);
+  }
+}
+
+}  // namespace cut

@@ -1,0 +1,71 @@
+// The loops of one step in plain C++. In and out: the padded arrays of Simulation::step.
+#include "simulation/kernels.hpp"
+
+#include <cmath>
+
+namespace cut {
+namespace {
+
+void add_spring_forces(const SpringArrays& springs, const PaddedVector* positions,
+                       const PaddedVector* velocities, PaddedVector* forces) {
+  for (std::size_t i = 0; i < springs.nodes.size(); ++i) {
+    const auto [a, b] = springs.nodes[i];
+    const PaddedVector& pa = positions[a];
+    const PaddedVector& pb = positions[b];
+    const PaddedVector& va = velocities[a];
+    const PaddedVector& vb = velocities[b];
+    const double dx = pb.x - pa.x, dy = pb.y - pa.y, dz = pb.z - pa.z;
+    const double ux = vb.x - va.x, uy = vb.y - va.y, uz = vb.z - va.z;
+    const double length = std::sqrt((dx * dx + dy * dy) + dz * dz);
+    // Nodes at the same place: the direction is undefined, and so is the force. None is taken.
+    const double inverse = length > 0 ? 1 / length : 0;
+    // + 0.0: the fourth component, which decides the sign of a zero.
+    const double rate = ((ux * dx + uy * dy) + (uz * dz + 0.0)) * inverse;
+    const double scale =
+        (springs.stiffness[i] * (length - springs.rest_length[i]) + springs.damping[i] * rate) * inverse;
+    const double fx = dx * scale, fy = dy * scale, fz = dz * scale;
+    forces[a].x += fx;
+    forces[a].y += fy;
+    forces[a].z += fz;
+    forces[b].x -= fx;
+    forces[b].y -= fy;
+    forces[b].z -= fz;
+  }
+}
+
+bool replace_by_velocities(const VelocityUpdate& update, std::span<const double> inverse_mass,
+                           const PaddedVector* velocities, PaddedVector* forces) {
+  bool sound = true;
+  const auto next = [&](double force, double inverse, double velocity, double acceleration) {
+    const double a = force * inverse + (acceleration - update.drag * velocity);
+    const double result = inverse > 0 ? velocity + a * update.time_step : velocity;
+    sound &= std::abs(result) <= update.speed_limit;
+    return result;
+  };
+  for (std::size_t n = 0; n < inverse_mass.size(); ++n) {
+    const double inverse = inverse_mass[n];
+    const PaddedVector& v = velocities[n];
+    PaddedVector& f = forces[n];
+    f.x = next(f.x, inverse, v.x, update.acceleration.x);
+    f.y = next(f.y, inverse, v.y, update.acceleration.y);
+    f.z = next(f.z, inverse, v.z, update.acceleration.z);
+  }
+  return sound;
+}
+
+void move(double time_step, std::span<PaddedVector> positions, const PaddedVector* velocities) {
+  for (std::size_t n = 0; n < positions.size(); ++n) {
+    positions[n].x += velocities[n].x * time_step;
+    positions[n].y += velocities[n].y * time_step;
+    positions[n].z += velocities[n].z * time_step;
+  }
+}
+
+}  // namespace
+
+const Kernels& portable_kernels() {
+  static constexpr Kernels kernels{add_spring_forces, replace_by_velocities, move};
+  return kernels;
+}
+
+}  // namespace cut

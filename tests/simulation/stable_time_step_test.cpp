@@ -1,0 +1,96 @@
+// The estimated stable time step, against the eigenvalues of the linearised cloth and against runs.
+#include <doctest/doctest.h>
+#include <rapidcheck.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "simulation/meshes.hpp"
+
+using cut::Integrator;
+using cut::NodeId;
+
+namespace {
+
+/// Largest eigenvalue ω² of M⁻¹K at rest.
+double largest_squared_frequency(const cut::HybridMesh& mesh, const cut::Simulation& simulation) {
+  const Eigen::Index size = 3 * static_cast<Eigen::Index>(mesh.positions.size());
+  Eigen::MatrixXd system = Eigen::MatrixXd::Zero(size, size);
+  for (std::size_t s = 0; s < mesh.buffers.springs.size(); ++s) {
+    const auto& ends = mesh.buffers.springs[s].nodes;
+    const Eigen::Vector3d along =
+        (mesh.positions[ends[1].index()] - mesh.positions[ends[0].index()]).normalized();
+    for (const std::size_t i : {0u, 1u})
+      for (const std::size_t j : {0u, 1u})
+        system.block<3, 3>(3 * ends[i].value, 3 * ends[j].value) +=
+            (i == j ? 1 : -1) * simulation.stiffness(cut::SpringId{s}) /
+            std::sqrt(simulation.mass(ends[i]) * simulation.mass(ends[j])) * along * along.transpose();
+  }
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(system, Eigen::EigenvaluesOnly)
+      .eigenvalues()
+      .maxCoeff();
+}
+
+/// The largest stable step of a single mode, by bisection on the size of the step's matrix.
+double true_limit(Integrator integrator, double squared, double damping) {
+  const auto stable = [&](double h) {
+    Eigen::Matrix2d step;
+    if (integrator == Integrator::forward_euler)
+      step << 1, h, -h * squared, 1 - h * damping;
+    else
+      step << 1 - h * h * squared, h * (1 - h * damping), -h * squared, 1 - h * damping;
+    return Eigen::EigenSolver<Eigen::Matrix2d>(step, false).eigenvalues().cwiseAbs().maxCoeff() <= 1 + 1e-12;
+  };
+  double low = 0, high = 1e3;
+  for (int i = 0; i < 100; ++i) (stable((low + high) / 2) ? low : high) = (low + high) / 2;
+  return low;
+}
+
+}  // namespace
+
+TEST_CASE("The estimate is below the true limit of the linearised cloth, and near it") {
+  CHECK(rc::check([] {
+    const cut::HybridMesh mesh = testing::built(scenes::random_sheet(
+        1 + *rc::gen::inRange<std::size_t>(0, 4), 1 + *rc::gen::inRange<std::size_t>(0, 4), 0.5,
+        *rc::gen::arbitrary<std::uint64_t>()));
+    const double ratio = *rc::gen::element(0.0001, 0.001, 0.01, 0.1, 1.0);  // c / k
+    const cut::Material material{cut::MaterialMode::conserving, 0.3, 200, 200 * ratio};
+    const cut::Simulation simulation = testing::simulated(mesh, material);
+    const double squared = largest_squared_frequency(mesh, simulation);
+    for (const Integrator integrator : {Integrator::forward_euler, Integrator::semi_implicit_euler}) {
+      const double limit = true_limit(integrator, squared, ratio * squared);
+      const double estimate = simulation.stable_time_step(integrator);
+      RC_ASSERT(estimate <= limit * (1 + 1e-6));
+      RC_ASSERT(estimate >= 0.2 * limit);
+      RC_ASSERT(simulation.cut_proof_time_step(integrator, mesh) <= estimate * (1 + 1e-12));
+    }
+  }));
+}
+
+TEST_CASE("Drag alone limits the step, and forward Euler without damping has none") {
+  const cut::HybridMesh mesh = testing::built(scenes::twelve_triangles());
+  cut::Simulation soft = testing::simulated(mesh, {cut::MaterialMode::conserving, 0.5, 0, 0});
+  CHECK(std::isinf(soft.stable_time_step(Integrator::forward_euler)));
+  CHECK(std::isinf(soft.stable_time_step(Integrator::semi_implicit_euler)));
+  soft.surroundings.air_drag = 4;
+  CHECK(soft.stable_time_step(Integrator::forward_euler) == doctest::Approx(2 / 8.0));
+  CHECK(soft.stable_time_step(Integrator::semi_implicit_euler) == doctest::Approx(2 / 8.0));
+  cut::Simulation undamped = testing::simulated(mesh, {cut::MaterialMode::conserving, 0.5, 10, 0});
+  CHECK(undamped.stable_time_step(Integrator::forward_euler) == 0);
+}
+
+TEST_CASE("Cloth is stable a little below the estimate and blows up well above it") {
+  for (const Integrator integrator : {Integrator::forward_euler, Integrator::semi_implicit_euler}) {
+    for (const double factor : {0.95, 4.0}) {
+      std::mt19937 random(11);
+      cut::HybridMesh mesh = testing::built(scenes::random_sheet(5, 5, 0.4, 9));
+      cut::Simulation simulation = testing::simulated(mesh, {cut::MaterialMode::conserving, 0.2, 100, 0.05});
+      simulation.surroundings.integrator = integrator;
+      testing::shake(mesh, simulation, random, 1e-6, 0);
+      const double before = simulation.energy(mesh).total();
+      const auto error = simulation.step(mesh, factor * simulation.stable_time_step(integrator), 50000);
+      CHECK(error.has_value() == (factor > 1));
+      if (!error) CHECK(simulation.energy(mesh).total() < before);
+    }
+  }
+}
