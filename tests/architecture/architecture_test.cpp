@@ -97,7 +97,7 @@ TEST_CASE("a planted circle is found and named") {
 
 TEST_CASE("a file without a layer is told where to get one") {
   for (const std::string path : {"libcut/include/cut/unheard_of.hpp", "libcut/src/unheard_of/step.cpp"})
-    expect_violation(path, "", path + ": has no layer. Give it a row in `public_headers`");
+    expect_violation(path, "", path + ": has no layer. Enter it into the table `layers`");
 }
 
 TEST_CASE("what a comment says is no include") {
