@@ -30,8 +30,8 @@ Mesh read_off(std::string_view bytes);
 
 /// Positions, colours, UV, normals; a group `piece_k` for each piece.
 void write_obj(const Mesh& mesh, std::span<const std::size_t> piece_begin, std::string& out);
-/// Binary little endian; positions in double, colours in their own type, UV and normals where all corners of
-/// a vertex agree on them.
+/// Binary little endian; positions in double, colours in their own type, UV of vertices or else of corners,
+/// normals where all corners of a vertex agree on them.
 void write_ply(const Mesh& mesh, std::string& out);
 /// Ascii, since binary STL has single precision only; a solid for each piece.
 void write_stl(const Mesh& mesh, std::span<const std::size_t> piece_begin, std::string& out);

@@ -1,4 +1,6 @@
 // Writes PLY, binary little endian: exact and compact.
+#include <algorithm>
+
 #include "snip/mesh_file/formats.hpp"
 #include "snip/mesh_file/polygon_soup.hpp"
 #include "snip/mesh_file/scalar.hpp"
@@ -24,7 +26,11 @@ void write_ply(const Mesh& mesh, std::string& out) {
   // Most programs expect signed indices, and only the largest meshes need the other half of the range.
   const ScalarType index = mesh.positions.size() <= 0x7fffffffu ? ScalarType::int32 : ScalarType::uint32;
   out += "element face " + std::to_string(mesh.triangles.size()) + "\n";
-  out.append("property list uchar ").append(name_of(index)).append(" vertex_indices\nend_header\n");
+  out.append("property list uchar ").append(name_of(index)).append(" vertex_indices\n");
+  // Where corners of a vertex differ, at a seam, the faces carry the coordinates: as MeshLab has it.
+  const bool uvs_by_corner = !uvs && !mesh.uv_triangles.empty();
+  if (uvs_by_corner) out += "property list uchar double texcoord\n";
+  out += "end_header\n";
 
   const auto append = [&out](const auto& values) {
     for (const double value : values) encode(ScalarType::float64, value, out);
@@ -37,9 +43,15 @@ void write_ply(const Mesh& mesh, std::string& out) {
       for (std::size_t c = 0; c < mesh.colours.types.size(); ++c)
         encode(mesh.colours.types[c], mesh.colours.values[v][c], out);
   }
-  for (const Triangle& triangle : mesh.triangles) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     out += '\3';
-    for (const std::uint32_t corner : triangle) encode(index, corner, out);
+    for (const std::uint32_t corner : mesh.triangles[t]) encode(index, corner, out);
+    if (!uvs_by_corner) continue;
+    const Triangle& corners = mesh.uv_triangles[t];
+    const bool complete = std::ranges::find(corners, no_index) == corners.end();
+    out += complete ? '\6' : '\0';
+    if (complete)
+      for (const std::uint32_t corner : corners) append(mesh.uvs[corner]);
   }
 }
 

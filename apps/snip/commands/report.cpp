@@ -1,0 +1,48 @@
+// Messages; see the header.
+#include "snip/commands/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+
+#include "snip/clean.hpp"
+#include "snip/mesh_file/mesh_file.hpp"
+
+namespace snip {
+namespace {
+
+void report(std::string_view kind, std::string_view message) {
+  std::string line(message);
+  std::ranges::replace(line, '\n', ' ');
+  fmt::print(stderr, "snip: {}: {}\n", kind, line);
+}
+
+}  // namespace
+
+void report_error(const Error& error) { report("error", error.message); }
+
+void report_warning(std::string_view message) { report("warning", message); }
+
+Result<Mesh> read_clean_mesh(const std::filesystem::path& path) {
+  Result<Mesh> mesh = read_mesh(path);
+  if (!mesh) return mesh;
+  const Result<CleanReport> cleaned = clean(*mesh, path.string());
+  if (!cleaned) return cleaned.error();
+  const std::string dropped = describe(*cleaned, path.string());
+  if (!dropped.empty()) report_warning(dropped);
+  return mesh;
+}
+
+Error explain(const cut::Error& error, const Mesh& mesh, std::string_view name) {
+  using Kind = cut::Error::Kind;
+  const bool about_triangle = error.kind == Kind::degenerate_triangle ||
+                              error.kind == Kind::duplicate_triangle || error.kind == Kind::non_manifold_edge;
+  if (!about_triangle || error.element >= mesh.polygon_of_triangle.size())
+    return {fmt::format("{}: {}", name, error.message)};
+  return {fmt::format("{}: {}, which is of face {} of the file (all counted from 0)", name, error.message,
+                      mesh.polygon_of_triangle[error.element])};
+}
+
+}  // namespace snip

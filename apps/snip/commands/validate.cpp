@@ -1,0 +1,54 @@
+// snip validate MESH: can this mesh be cut, and what does it consist of?
+#include "cut/validate.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+#include "snip/clean.hpp"
+#include "snip/command_line.hpp"
+#include "snip/commands/commands.hpp"
+#include "snip/commands/report.hpp"
+#include "snip/pieces.hpp"
+
+namespace snip {
+namespace {
+
+Result<> run(const std::string& path) {
+  const Result<Mesh> mesh = read_clean_mesh(path);
+  if (!mesh) return mesh.error();
+  const auto hybrid = cut::HybridMesh::build(to_triangle_mesh(*mesh));
+  if (!hybrid) return explain(hybrid.error(), *mesh, path);
+  const Pieces pieces = find_pieces(mesh->positions, mesh->triangles);
+  fmt::print("{}: {} vertices, {} triangles, {} piece{}\n", path, mesh->positions.size(),
+             mesh->triangles.size(), pieces.pieces.size(), pieces.pieces.size() == 1 ? "" : "s");
+  for (std::size_t p = 0; p < pieces.pieces.size(); ++p) {
+    const Piece& piece = pieces.pieces[p];
+    fmt::print("piece_{}: area {:.6g}, {} triangles, {} boundary loops, Euler characteristic {}\n", p,
+               piece.area, piece.triangles, piece.boundary_loops, piece.euler_characteristic);
+  }
+  const std::vector<cut::Violation> violations = cut::validate(*hybrid);
+  for (const cut::Violation& violation : violations)
+    fmt::print("{}: {}\n", violation.rule, violation.message);
+  if (!violations.empty()) return Error{fmt::format("{}: {} violations found", path, violations.size())};
+  return {};
+}
+
+}  // namespace
+
+void add_validate_command(CLI::App& app, int& exit_code) {
+  CLI::App* command =
+      app.add_subcommand("validate", "Tell whether a mesh can be cut, and what it consists of");
+  auto mesh = std::make_shared<std::string>();
+  command->add_option("MESH", *mesh, "Mesh to look at (.obj, .ply, .stl, .off)")->required();
+  command->callback([mesh, &exit_code] {
+    if (const Result<> result = run(*mesh); !result) {
+      report_error(result.error());
+      exit_code = exit_bad_input;
+    }
+  });
+}
+
+}  // namespace snip

@@ -1,0 +1,75 @@
+// snip weld MESH -d DISTANCE -o OUT [--stats FILE]: merges vertices.
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "snip/clean.hpp"
+#include "snip/command_line.hpp"
+#include "snip/commands/commands.hpp"
+#include "snip/commands/report.hpp"
+#include "snip/mesh_file/mesh_file.hpp"
+#include "snip/stats.hpp"
+#include "snip/weld.hpp"
+
+namespace snip {
+namespace {
+
+struct WeldOptions {
+  std::string mesh;
+  double distance = 0;
+  std::string out;
+  std::optional<std::string> stats;
+};
+
+Result<> run(const WeldOptions& options) {
+  const Result<MeshFormat> out_format = format_of(options.out);
+  if (!out_format) return out_format.error();
+  Stopwatch stopwatch;
+  Result<Mesh> mesh = read_mesh(options.mesh);
+  if (!mesh) return mesh.error();
+  stopwatch.lap("read");
+  const std::size_t vertices_before = mesh->positions.size();
+  const std::size_t triangles_before = mesh->triangles.size();
+  const Result<std::size_t> merged = weld(*mesh, options.distance, options.mesh);
+  if (!merged) return merged.error();
+  stopwatch.lap("weld");
+  const Result<CleanReport> cleaned = clean(*mesh, options.mesh);
+  if (!cleaned) return cleaned.error();
+  const std::string dropped = describe(*cleaned, options.mesh);
+  if (!dropped.empty()) report_warning(dropped);
+  stopwatch.lap("clean");
+  const Pieces pieces = find_pieces(mesh->positions, mesh->triangles);
+  const std::vector<std::size_t> piece_begin = sort_by_piece(*mesh, pieces);
+  stopwatch.lap("pieces");
+  if (const Result<> written = write_mesh(options.out, *mesh, piece_begin); !written) return written;
+  stopwatch.lap("write");
+  if (!options.stats) return {};
+  return write_json(*options.stats,
+                    {{"pieces", to_json(pieces.pieces)},
+                     {"vertices", {{"before", vertices_before}, {"after", mesh->positions.size()}}},
+                     {"triangles", {{"before", triangles_before}, {"after", mesh->triangles.size()}}},
+                     {"dropped", {{"degenerate", cleaned->degenerate}, {"duplicate", cleaned->duplicates}}},
+                     {"timings_ms", to_json(stopwatch)}});
+}
+
+}  // namespace
+
+void add_weld_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("weld", "Merge vertices that lie within a distance of each other");
+  auto options = std::make_shared<WeldOptions>();
+  command->add_option("MESH", options->mesh, "Mesh to weld (.obj, .ply, .stl, .off)")->required();
+  command->add_option("-d,--distance", options->distance, "Merge vertices no farther apart than this")
+      ->required()
+      ->check(CLI::PositiveNumber);
+  command->add_option("-o,--output", options->out, "Mesh to write (.obj, .ply, .stl, .off)")->required();
+  command->add_option("--stats", options->stats, "Write what was done as JSON");
+  command->callback([options, &exit_code] {
+    if (const Result<> result = run(*options); !result) {
+      report_error(result.error());
+      exit_code = exit_bad_input;
+    }
+  });
+}
+
+}  // namespace snip
