@@ -1,0 +1,47 @@
+#include "cutting/change_log.hpp"
+
+#include <utility>
+
+namespace cut {
+namespace {
+
+template <class T>
+ArrayChanges<T> entries(std::vector<std::uint32_t>& indices, const std::vector<T>& array) {
+  std::sort(indices.begin(), indices.end());
+  indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
+  ArrayChanges<T> changes;
+  changes.size_after = array.size();
+  changes.entries.reserve(indices.size());
+  for (const std::uint32_t i : indices) changes.entries.push_back({i, array[i]});
+  return changes;
+}
+
+template <class T>
+void apply_to(std::vector<T>& array, const ArrayChanges<T>& changes) {
+  array.resize(changes.size_after);
+  for (const auto& entry : changes.entries) array[entry.index] = entry.value;
+}
+
+}  // namespace
+
+Changes publish(const HybridMesh& mesh, ChangeLog&& log) {
+  Changes changes;
+  changes.node_copies = std::move(log.node_copies);
+  changes.triangle_copies = std::move(log.triangle_copies);
+  changes.nodes = entries(log.nodes, mesh.buffers.nodes);
+  changes.triangles = entries(log.triangles, mesh.buffers.triangles);
+  changes.springs = entries(log.springs, mesh.buffers.springs);
+  changes.render_vertices = entries(log.render_vertices, mesh.buffers.render_vertices);
+  changes.render_triangles = entries(log.render_triangles, mesh.buffers.render_triangles);
+  return changes;
+}
+
+void apply(const Changes& changes, Buffers& buffers) {
+  apply_to(buffers.nodes, changes.nodes);
+  apply_to(buffers.triangles, changes.triangles);
+  apply_to(buffers.springs, changes.springs);
+  apply_to(buffers.render_vertices, changes.render_vertices);
+  apply_to(buffers.render_triangles, changes.render_triangles);
+}
+
+}  // namespace cut

@@ -1,0 +1,28 @@
+/// @file
+/// Notes which entries of the flat buffers a cut has written, so that the change set costs what was changed
+/// and not what there is.
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "cut/changes.hpp"
+#include "cut/hybrid_mesh.hpp"
+
+namespace cut {
+
+struct ChangeLog {
+  std::vector<std::uint32_t> nodes;
+  std::vector<std::uint32_t> triangles;
+  std::vector<std::uint32_t> springs;
+  std::vector<std::uint32_t> render_vertices;
+  std::vector<std::uint32_t> render_triangles;
+  std::vector<NodeCopy> node_copies;
+  std::vector<TriangleCopy> triangle_copies;
+};
+
+/// Step 6 of the design, Publish: the change set of all noted entries with their values now. O(changes ·
+/// log).
+Changes publish(const HybridMesh& mesh, ChangeLog&& log);
+
+}  // namespace cut

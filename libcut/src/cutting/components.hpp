@@ -1,0 +1,32 @@
+/// @file
+/// Connected components of a few items (union-find), for reconnection.
+#pragma once
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+namespace cut {
+
+class Components {
+ public:
+  explicit Components(std::size_t items) : parent_(items) { std::iota(parent_.begin(), parent_.end(), 0u); }
+
+  std::uint32_t root(std::uint32_t item) {
+    while (parent_[item] != item) item = parent_[item] = parent_[parent_[item]];
+    return item;
+  }
+  /// The smallest item of a component is its root.
+  void join(std::uint32_t a, std::uint32_t b) {
+    a = root(a);
+    b = root(b);
+    if (a < b)
+      parent_[b] = a;
+    else
+      parent_[a] = b;
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+}  // namespace cut

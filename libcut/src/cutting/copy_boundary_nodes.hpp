@@ -1,0 +1,22 @@
+/// @file
+/// Step 6, Copy Boundary Nodes (§4.6), for all render vertices: those at a boundary node or a physics node
+/// are the connected components of the angles that polygons have there, two angles being connected when they
+/// share an uncut section that ends at the node; an inner node has one for each angle. Then the render
+/// triangles of new polygons (§4.10). In: arrangements without render vertices. Out: complete arrangements
+/// and render buffers.
+#pragma once
+#include <span>
+#include <vector>
+
+#include "cut/hybrid_mesh.hpp"
+#include "cutting/change_log.hpp"
+#include "cutting/state.hpp"
+
+namespace cut {
+
+/// @param works those whose arrangement or whose sides' sections have changed, `before` still being their old
+/// arrangement.
+///        O(corners of these polygons and of the neighbours at their border · log)
+void copy_boundary_nodes(HybridMesh& mesh, std::span<const TriangleWork> works, ChangeLog& log);
+
+}  // namespace cut

@@ -1,0 +1,187 @@
+#include "cutting/copy_physics_nodes.hpp"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include "cutting/components.hpp"
+#include "cutting/edge_state.hpp"
+
+namespace cut {
+namespace {
+
+using Index = std::uint32_t;
+
+/// The fragments of the triangles around a node, numbered.
+struct Fragments {
+  std::span<const AncestorId> around;
+  std::vector<Index> first;  ///< per triangle (+1): number of its first fragment
+
+  Fragments(const HybridMesh& mesh, AncestorNodeId node) : around(mesh.ancestors.triangles_around(node)) {
+    first.push_back(0);
+    for (const AncestorId t : around)
+      first.push_back(first.back() + static_cast<Index>(mesh.fragment_count(t)));
+  }
+  [[nodiscard]] std::size_t position(AncestorId t) const {
+    return static_cast<std::size_t>(std::find(around.begin(), around.end(), t) - around.begin());
+  }
+};
+
+/// Joins fragments that share an uncut section of an edge ending at the node.
+Components connect(const HybridMesh& mesh, AncestorNodeId node, const Fragments& fragments) {
+  Components components(fragments.first.back());
+  std::vector<Index> polygons;  // per section, on the first side
+  for (std::size_t a = 0; a < fragments.around.size(); ++a) {
+    const AncestorId t = fragments.around[a];
+    const std::size_t corner = mesh.ancestors.local_node(t, node);
+    for (const std::size_t i : {corner, last_corner(corner)}) {
+      const AncestorId other = mesh.ancestors.neighbour(t, i);
+      if (!other.valid() || other < t) continue;
+      const AncestorEdgeId edge = mesh.ancestors.triangles[t.index()].edges[i];
+      const EdgeState* state = mesh.edge_state(edge);
+      const std::size_t b = fragments.position(other);
+      polygons.clear();
+      for_each_section(mesh, t, i, [&](std::size_t, Index polygon) { polygons.push_back(polygon); });
+      for_each_section(
+          mesh, other, mesh.ancestors.local_edge(other, edge), [&](std::size_t section, Index polygon) {
+            if (!is_cut(state, section))
+              components.join(fragments.first[a] + polygons[section], fragments.first[b] + polygon);
+          });
+    }
+  }
+  return components;
+}
+
+/// True when the polygon reaches the triangle's corner.
+bool renders_corner(const HybridMesh& mesh, AncestorId t, Index polygon, std::size_t corner) {
+  const Arrangement* arrangement = mesh.arrangement(t);
+  if (arrangement == nullptr) return true;
+  const auto& corners = arrangement->polygons[polygon].corners;
+  return std::any_of(corners.begin(), corners.end(),
+                     [&](const PolygonCorner& c) { return c.node == corner; });
+}
+
+/// One component of fragments, as seen from the node.
+struct Copy {
+  NodeId old;    ///< the node that its fragments had so far
+  bool renders;  ///< one of its fragments reaches the node
+  Index root;
+  NodeId now;
+};
+
+}  // namespace
+
+bool copy_physics_node(HybridMesh& mesh, AncestorNodeId node, ChangeLog& log) {
+  const Fragments fragments(mesh, node);
+  Components components = connect(mesh, node, fragments);
+  std::vector<Copy> copies;
+  std::vector<Index> copy_of_root(fragments.first.back(), HybridMesh::none);
+  const auto for_each_fragment = [&](const auto& visit) {
+    for (std::size_t a = 0; a < fragments.around.size(); ++a) {
+      const AncestorId t = fragments.around[a];
+      const std::size_t corner = mesh.ancestors.local_node(t, node);
+      for (Index p = 0; p < fragments.first[a + 1] - fragments.first[a]; ++p)
+        visit(t, corner, p, components.root(fragments.first[a] + p));
+    }
+  };
+  for_each_fragment([&](AncestorId t, std::size_t corner, Index polygon, Index root) {
+    if (copy_of_root[root] == HybridMesh::none) {
+      copy_of_root[root] = static_cast<Index>(copies.size());
+      copies.push_back(
+          {mesh.buffers.triangles[mesh.fragment(t, polygon).index()].nodes[corner], false, root, {}});
+    }
+    Copy& copy = copies[copy_of_root[root]];
+    copy.renders = copy.renders || renders_corner(mesh, t, polygon, corner);
+  });
+  // Of the components that had the same node, one keeps it.
+  std::vector<Index> order(copies.size());
+  std::iota(order.begin(), order.end(), Index{0});
+  std::sort(order.begin(), order.end(), [&](Index a, Index b) {
+    return std::tuple(copies[a].old, !copies[a].renders, copies[a].root) <
+           std::tuple(copies[b].old, !copies[b].renders, copies[b].root);
+  });
+  bool copied = false;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    Copy& copy = copies[order[i]];
+    if (i == 0 || copies[order[i - 1]].old != copy.old) {
+      copy.now = copy.old;
+      continue;
+    }
+    copy.now = NodeId{mesh.buffers.nodes.size()};
+    mesh.buffers.nodes.push_back(node);
+    mesh.positions.push_back(Eigen::Vector3d(mesh.positions[copy.old.index()]));
+    log.nodes.push_back(copy.now.value);
+    log.node_copies.push_back({copy.now, copy.old});
+    copied = true;
+  }
+  if (!copied) return false;
+  for_each_fragment([&](AncestorId t, std::size_t corner, Index polygon, Index root) {
+    const TriangleId triangle = mesh.fragment(t, polygon);
+    NodeId& now = mesh.buffers.triangles[triangle.index()].nodes[corner];
+    if (now == copies[copy_of_root[root]].now) return;
+    now = copies[copy_of_root[root]].now;
+    log.triangles.push_back(triangle.value);
+  });
+  return true;
+}
+
+void update_springs(HybridMesh& mesh, const std::vector<AncestorNodeId>& nodes, ChangeLog& log) {
+  std::vector<AncestorEdgeId> edges;
+  for (const AncestorNodeId n : nodes)
+    for (const AncestorId t : mesh.ancestors.triangles_around(n))
+      for (const AncestorEdgeId e : mesh.ancestors.triangles[t.index()].edges) edges.push_back(e);
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+
+  using Pair = std::array<NodeId, 2>;
+  auto& springs = mesh.buffers.springs;
+  std::vector<Pair> wanted;
+  for (const AncestorEdgeId e : edges) {
+    wanted.clear();
+    for (const AncestorId t : mesh.ancestors.edges[e.index()].triangles) {
+      if (!t.valid()) continue;
+      const std::size_t i = mesh.ancestors.local_edge(t, e);
+      const bool reversed = mesh.ancestors.reversed(t, i);
+      for (std::size_t p = 0; p < mesh.fragment_count(t); ++p) {
+        const auto& corners = mesh.buffers.triangles[mesh.fragment(t, p).index()].nodes;
+        Pair pair{corners[i], corners[next_corner(i)]};
+        if (reversed) std::swap(pair[0], pair[1]);
+        wanted.push_back(pair);
+      }
+    }
+    std::sort(wanted.begin(), wanted.end());
+    wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+    if (wanted.size() == 1 && mesh.edge_state(e) == nullptr && springs[e.index()].nodes == wanted[0])
+      continue;
+    EdgeState& state = edge_state_for_writing(mesh, e);
+    std::vector<SpringId> idle;  // springs whose pair is gone: they get another one
+    for (const SpringId s : state.springs) {
+      const auto found = std::find(wanted.begin(), wanted.end(), springs[s.index()].nodes);
+      if (found == wanted.end())
+        idle.push_back(s);
+      else
+        wanted.erase(found);
+    }
+    std::sort(idle.begin(), idle.end());
+    std::size_t reused = 0;
+    for (const Pair& pair : wanted) {
+      SpringId s{springs.size()};
+      if (reused < idle.size()) {
+        s = idle[reused++];
+        springs[s.index()].nodes = pair;
+      } else {
+        springs.push_back({pair, e});
+        state.springs.push_back(s);
+      }
+      log.springs.push_back(s.value);
+    }
+    for (; reused < idle.size(); ++reused) {
+      springs[idle[reused].index()] = Spring{};
+      log.springs.push_back(idle[reused].value);
+      state.springs.erase(std::find(state.springs.begin(), state.springs.end(), idle[reused]));
+    }
+  }
+}
+
+}  // namespace cut

@@ -1,0 +1,166 @@
+// The pipeline (§4): runs the steps in their order, with nothing in between but the state that flows through
+// them.
+#include "cut/cutter.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "cutting/arrange_triangle.hpp"
+#include "cutting/broad_phase.hpp"
+#include "cutting/change_log.hpp"
+#include "cutting/copy_boundary_nodes.hpp"
+#include "cutting/copy_physics_nodes.hpp"
+#include "cutting/copy_physics_triangles.hpp"
+#include "cutting/detect_cutting_lines.hpp"
+#include "cutting/detect_disjoint_polygons.hpp"
+#include "cutting/edge_state.hpp"
+#include "cutting/merge_cut_endpoints.hpp"
+#include "cutting/merge_on_physics_edges.hpp"
+#include "cutting/state.hpp"
+#include "cutting/triangulate_polygons.hpp"
+
+namespace cut {
+
+struct Cutter::Memory {
+  MergeDistances distances;
+  BroadPhase broad_phase;
+  std::uint32_t previous_cut = 0;
+  StepTimings timings;
+};
+
+namespace {
+
+class Stopwatch {
+ public:
+  /// Adds the milliseconds since the last call to `sum`.
+  void lap(double& sum) {
+    const auto now = std::chrono::steady_clock::now();
+    sum += std::chrono::duration<double, std::milli>(now - last_).count();
+    last_ = now;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+bool check_cutter(const TriangleMesh& cutter, Error& error) {
+  for (std::size_t i = 0; i < cutter.triangles.size(); ++i)
+    for (const std::uint32_t node : cutter.triangles[i]) {
+      if (node >= cutter.positions.size()) {
+        error = {Error::Kind::index_out_of_range,
+                 "triangle " + std::to_string(i) + " of the cutter names point " + std::to_string(node) +
+                     ", but there are only " + std::to_string(cutter.positions.size()),
+                 i};
+        return false;
+      }
+      if (!cutter.positions[node].allFinite() || !(cutter.positions[node].cwiseAbs().maxCoeff() < 1e100)) {
+        error = {Error::Kind::not_finite,
+                 "point " + std::to_string(node) +
+                     " of the cutter has a coordinate that is NaN, infinite or beyond 1e100",
+                 node};
+        return false;
+      }
+    }
+  return true;
+}
+
+/// Writes the numbers of the cuts that nodes took part in back to where they are kept.
+void keep_stamps(HybridMesh& mesh, const TriangleWork& work, const CutContext& context) {
+  const Ancestor& ancestor = mesh.ancestors.triangles[work.ancestor.index()];
+  for (std::size_t k = 0; k < 3; ++k)
+    if (work.stamps[k] == context.this_cut) mesh.node_stamps[ancestor.nodes[k].index()] = context.this_cut;
+  std::size_t n = 3;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::uint32_t j = 0; j < work.boundary_counts[i]; ++j, ++n) {
+      if (work.stamps[n] != context.this_cut) continue;
+      const std::int32_t t = work.graph.points[n][next_corner(i)];
+      stamp_edge_node(mesh, ancestor.edges[i],
+                      mesh.ancestors.reversed(work.ancestor, i) ? lattice_size - t : t, context.this_cut);
+    }
+  const std::uint32_t index = mesh.arrangement_of[work.ancestor.index()];
+  if (work.changed || index == HybridMesh::none) return;
+  Arrangement& stored = mesh.arrangements[index];
+  for (std::size_t k = stored.first_inner_node(); k < stored.nodes.size(); ++k)
+    if (work.stamps[k] == context.this_cut) stored.nodes[k].stamp = context.this_cut;
+}
+
+}  // namespace
+
+Cutter::Cutter(const MergeDistances& distances) : memory_(std::make_unique<Memory>()) {
+  memory_->distances = distances;
+}
+Cutter::Cutter(Cutter&&) noexcept = default;
+Cutter& Cutter::operator=(Cutter&&) noexcept = default;
+Cutter::~Cutter() = default;
+
+const MergeDistances& Cutter::distances() const { return memory_->distances; }
+const StepTimings& Cutter::timings() const { return memory_->timings; }
+
+Result<Changes> Cutter::cut(HybridMesh& mesh, const TriangleMesh& cutter) {
+  StepTimings& timings = memory_->timings;
+  timings = {};
+  Stopwatch watch;
+  Error error{};
+  if (!check_cutter(cutter, error)) return error;
+  if (!memory_->broad_phase.update(mesh, error)) return error;
+  watch.lap(timings.broad_phase);
+
+  const CutContext context{memory_->distances, mesh.cut_count + 1, memory_->previous_cut};
+  const double slack = contact_slack(context.distances, cutter);
+  std::vector<TriangleWork> works =
+      detect_cutting_lines(mesh, cutter, memory_->broad_phase.candidates(cutter, slack), slack);
+  watch.lap(timings.detect);
+
+  ++mesh.cut_count;
+  memory_->previous_cut = context.this_cut;
+  Changes nothing;
+  nothing.version_before = nothing.version_after = mesh.topology_version;
+  if (works.empty()) return nothing;
+
+  for (TriangleWork& work : works) merge_cut_endpoints(work, context);
+  merge_on_physics_edges(mesh, works, context);
+  watch.lap(timings.merge_endpoints);
+
+  for (TriangleWork& work : works) {
+    std::array<std::vector<LatticePoint>, 3> boundary;
+    for (std::size_t i = 0; i < 3; ++i) boundary[i] = boundary_points(mesh, work.ancestor, i);
+    arrange_triangle(work, boundary, context);
+  }
+  ChangeLog log;
+  std::vector<AncestorNodeId> touched;  // physics nodes whose copies may have come apart
+  for (TriangleWork& work : works) {
+    for (const AncestorEdgeId e : cut_edge_sections(mesh, work)) {
+      work.changed = true;
+      for (const AncestorNodeId n : mesh.ancestors.edges[e.index()].nodes) touched.push_back(n);
+    }
+    keep_stamps(mesh, work, context);
+    if (work.changed && copy_physics_triangles(mesh, work, detect_disjoint_polygons(work), log))
+      for (const AncestorNodeId n : mesh.ancestors.triangles[work.ancestor.index()].nodes)
+        touched.push_back(n);
+  }
+  watch.lap(timings.arrange);
+  works.erase(std::remove_if(works.begin(), works.end(), [](const TriangleWork& w) { return !w.changed; }),
+              works.end());
+  if (works.empty()) return nothing;
+
+  std::sort(touched.begin(), touched.end());
+  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+  for (const AncestorNodeId n : touched) copy_physics_node(mesh, n, log);
+  update_springs(mesh, touched, log);
+  copy_boundary_nodes(mesh, works, log);
+  watch.lap(timings.reconnect);
+
+  triangulate_polygons(mesh, works, log);
+  update_vertex_nodes(mesh, log);
+  memory_->broad_phase.add(mesh, log.triangle_copies);
+  Changes changes = publish(mesh, std::move(log));
+  changes.version_before = mesh.topology_version;
+  changes.version_after = ++mesh.topology_version;
+  watch.lap(timings.publish);
+  return changes;
+}
+
+}  // namespace cut

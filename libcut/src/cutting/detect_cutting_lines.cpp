@@ -1,0 +1,87 @@
+#include "cutting/detect_cutting_lines.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "cutting/clip_to_polygon.hpp"
+#include "cutting/intersect_triangles.hpp"
+#include "cutting/join_collinear_lines.hpp"
+
+namespace cut {
+namespace {
+
+/// Index of a fragment among its ancestor's polygons.
+std::uint32_t polygon_of(const HybridMesh& mesh, TriangleId triangle) {
+  const Arrangement* arrangement = mesh.arrangement(mesh.buffers.triangles[triangle.index()].ancestor);
+  if (arrangement == nullptr) return 0;
+  std::uint32_t polygon = 0;
+  while (arrangement->polygons[polygon].triangle != triangle) ++polygon;
+  return polygon;
+}
+
+PhysicsFace physics_face(const HybridMesh& mesh, const PhysicsTriangle& triangle) {
+  PhysicsFace face;
+  for (std::size_t k = 0; k < 3; ++k) {
+    face.corners[k] = mesh.positions[triangle.nodes[k].index()];
+    face.reversed[k] = mesh.ancestors.reversed(triangle.ancestor, k);
+  }
+  return face;
+}
+
+}  // namespace
+
+double contact_slack(const MergeDistances& distances, const TriangleMesh& cutter) {
+  double largest = 0;
+  for (const auto& p : cutter.positions) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+  return std::max(distances.edge * 0x1p-12, largest * 0x1p-46);
+}
+
+std::vector<TriangleWork> detect_cutting_lines(const HybridMesh& mesh, const TriangleMesh& cutter,
+                                               std::vector<CandidatePair> candidates, double slack) {
+  std::sort(candidates.begin(), candidates.end(), [&](const CandidatePair& a, const CandidatePair& b) {
+    const AncestorId ancestor_a = mesh.buffers.triangles[a.triangle.index()].ancestor;
+    const AncestorId ancestor_b = mesh.buffers.triangles[b.triangle.index()].ancestor;
+    return std::tie(ancestor_a, a.triangle, a.cutter_triangle) <
+           std::tie(ancestor_b, b.triangle, b.cutter_triangle);
+  });
+  std::vector<CutterFace> faces(cutter.triangles.size());
+  std::vector<std::uint8_t> has_area(cutter.triangles.size());
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const auto& t = cutter.triangles[i];
+    has_area[i] =
+        faces[i].prepare({cutter.positions[t[0]], cutter.positions[t[1]], cutter.positions[t[2]]}) ? 1 : 0;
+  }
+
+  std::vector<TriangleWork> works;
+  std::vector<LatticePoint> points;
+  std::vector<CuttingLine> lines;
+  for (std::size_t i = 0; i < candidates.size();) {
+    const AncestorId ancestor = mesh.buffers.triangles[candidates[i].triangle.index()].ancestor;
+    const Arrangement* arrangement = mesh.arrangement(ancestor);
+    lines.clear();
+    for (; i < candidates.size(); ++i) {
+      const PhysicsTriangle& triangle = mesh.buffers.triangles[candidates[i].triangle.index()];
+      if (triangle.ancestor != ancestor) break;
+      if (has_area[candidates[i].cutter_triangle] == 0) continue;
+      intersect(physics_face(mesh, triangle), faces[candidates[i].cutter_triangle], slack, points);
+      if (points.size() < 2) continue;
+      const std::uint32_t polygon = polygon_of(mesh, candidates[i].triangle);
+      for (std::size_t k = 0; k + 1 < points.size(); ++k)
+        lines.push_back({polygon, {points[k]}, {points[k + 1]}});
+    }
+    if (lines.empty()) continue;
+    join_collinear_lines(lines);
+    TriangleWork work{ancestor, rest_metric(mesh.ancestors, ancestor), working_arrangement(mesh, ancestor)};
+    if (arrangement != nullptr && arrangement->polygons.size() > 1) {
+      for (const CuttingLine& l : lines)
+        clip_to_polygon(work.before, l.polygon, l.a.point, l.b.point, work.lines);
+    } else {
+      work.lines = lines;
+    }
+    if (!work.lines.empty()) works.push_back(std::move(work));
+  }
+  return works;
+}
+
+}  // namespace cut

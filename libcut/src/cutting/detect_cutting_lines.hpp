@@ -1,0 +1,30 @@
+/// @file
+/// Step 1, Detect Cutting Lines (§4.1). In: the mesh where it is now, the cutter, pairs of triangles whose
+/// boxes meet. Out: one TriangleWork for each ancestor that is cut, with its cutting lines.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "cut/hybrid_mesh.hpp"
+#include "cut/triangle_mesh.hpp"
+#include "cutting/state.hpp"
+
+namespace cut {
+
+/// A physics triangle and a cutter triangle that may intersect.
+struct CandidatePair {
+  TriangleId triangle;
+  std::uint32_t cutter_triangle;
+};
+
+/// How far features of cloth and cutter may miss each other in space and still count as touching. Everything
+/// that lies within it is far inside the merge distances, so it decides nothing but that no contact is lost
+/// to rounding.
+double contact_slack(const MergeDistances& distances, const TriangleMesh& cutter);
+
+/// The result does not depend on the order of `candidates`. Works are sorted by ancestor, lines within a work
+/// as well. O(candidates · log).
+std::vector<TriangleWork> detect_cutting_lines(const HybridMesh& mesh, const TriangleMesh& cutter,
+                                               std::vector<CandidatePair> candidates, double slack);
+
+}  // namespace cut

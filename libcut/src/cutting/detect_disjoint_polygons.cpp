@@ -1,0 +1,114 @@
+#include "cutting/detect_disjoint_polygons.hpp"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "cutting/work_graph.hpp"
+#include "lattice/faces.hpp"
+
+namespace cut {
+namespace {
+
+using lattice::GraphEdge;
+using Index = std::uint32_t;
+
+/// Nodes and edges in their final order; edges still carry the old polygons.
+Arrangement canonical(const TriangleWork& work) {
+  Arrangement result;
+  result.boundary_counts = work.boundary_counts;
+  const auto& points = work.graph.points;
+  const Index first_inner = first_inner_node(work);
+  std::vector<std::uint8_t> used(points.size(), 0);
+  for (const GraphEdge& e : work.graph.edges) used[e.from] = used[e.to] = 1;
+  std::vector<Index> order;
+  for (Index n = 0; n < points.size(); ++n)
+    if (n < first_inner || used[n] != 0) order.push_back(n);
+  std::sort(order.begin() + first_inner, order.end(),
+            [&](Index a, Index b) { return points[a] < points[b]; });
+  std::vector<Index> renumbered(points.size());
+  for (const Index n : order) {
+    renumbered[n] = static_cast<Index>(result.nodes.size());
+    result.nodes.push_back({points[n], work.stamps[n], work.rendered[n] != 0});
+  }
+  for (const GraphEdge& e : work.graph.edges) {
+    CutEdge edge{renumbered[e.from], renumbered[e.to], e.left, e.right, e.deviation};
+    if (edge.to < edge.from) {
+      std::swap(edge.from, edge.to);
+      std::swap(edge.left, edge.right);
+    }
+    result.edges.push_back(edge);
+  }
+  std::sort(result.edges.begin(), result.edges.end(), [](const CutEdge& a, const CutEdge& b) {
+    return std::tie(a.from, a.to) < std::tie(b.from, b.to);
+  });
+  return result;
+}
+
+std::int64_t doubled_area(const Arrangement& arrangement, const RenderPolygon& polygon) {
+  std::int64_t area = 0;
+  Index begin = 0;
+  for (const Index end : polygon.loop_ends) {
+    for (Index i = begin, j = end - 1; i < end; j = i++) {
+      const LatticePoint a = arrangement.nodes[polygon.corners[j].node].point;
+      const LatticePoint b = arrangement.nodes[polygon.corners[i].node].point;
+      area += std::int64_t{a.x} * b.y - std::int64_t{a.y} * b.x;
+    }
+    begin = end;
+  }
+  return area;
+}
+
+}  // namespace
+
+DisjointPolygons detect_disjoint_polygons(const TriangleWork& work) {
+  DisjointPolygons result;
+  Arrangement& arrangement = result.arrangement;
+  arrangement = canonical(work);
+
+  std::vector<LatticePoint> points;
+  for (const ArrangementNode& n : arrangement.nodes) points.push_back(n.point);
+  std::vector<lattice::FaceEdge> border;
+  std::vector<Index> border_polygon;  // in `before`
+  for (std::size_t i = 0; i < 3; ++i)
+    for (Index k = 0; k <= arrangement.boundary_counts[i]; ++k) {
+      border.push_back({arrangement.edge_node(i, k), arrangement.edge_node(i, k + 1)});
+      border_polygon.push_back(work.old_section_polygons[i][k]);
+    }
+  std::vector<lattice::FaceEdge> inner;
+  for (const CutEdge& e : arrangement.edges) inner.push_back({e.from, e.to});
+  lattice::Faces faces = lattice::find_faces(points, border, inner);
+
+  result.parent.assign(faces.faces.size(), HybridMesh::none);
+  const auto note_parent = [&](Index half_edge, Index polygon) {
+    const Index face = faces.face_of_half_edge[half_edge];
+    if (face != HybridMesh::none && result.parent[face] == HybridMesh::none) result.parent[face] = polygon;
+  };
+  for (Index i = 0; i < border.size(); ++i) note_parent(2 * i, border_polygon[i]);
+  const auto first_half_edge = static_cast<Index>(2 * border.size());
+  for (Index i = 0; i < arrangement.edges.size(); ++i) {
+    note_parent(first_half_edge + 2 * i, arrangement.edges[i].left);
+    note_parent(first_half_edge + 2 * i + 1, arrangement.edges[i].right);
+  }
+  for (Index i = 0; i < arrangement.edges.size(); ++i) {
+    arrangement.edges[i].left = faces.face_of_half_edge[first_half_edge + 2 * i];
+    arrangement.edges[i].right = faces.face_of_half_edge[first_half_edge + 2 * i + 1];
+  }
+  Index half_edge = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (Index k = 0; k <= arrangement.boundary_counts[i]; ++k, half_edge += 2)
+      arrangement.section_polygons[i].push_back(faces.face_of_half_edge[half_edge]);
+  for (lattice::Face& face : faces.faces) {
+    RenderPolygon polygon;
+    polygon.loop_ends = std::move(face.loop_ends);
+    for (const Index node : face.corners) {
+      polygon.corners.push_back({node, {}});
+      arrangement.nodes[node].rendered = true;
+    }
+    result.doubled_area.push_back(doubled_area(arrangement, polygon));
+    arrangement.polygons.push_back(std::move(polygon));
+  }
+  return result;
+}
+
+}  // namespace cut

@@ -1,0 +1,46 @@
+#include "cutting/edge_state.hpp"
+
+#include <algorithm>
+
+namespace cut {
+
+EdgeState& edge_state_for_writing(HybridMesh& mesh, AncestorEdgeId edge) {
+  std::uint32_t& index = mesh.edge_state_of[edge.index()];
+  if (index == HybridMesh::none) {
+    index = static_cast<std::uint32_t>(mesh.edge_states.size());
+    mesh.edge_states.emplace_back();
+    mesh.edge_states.back().springs.push_back(SpringId{edge.index()});
+  }
+  return mesh.edge_states[index];
+}
+
+void insert_boundary_node(EdgeState& state, std::int32_t t, std::uint32_t stamp) {
+  const auto at = std::lower_bound(state.nodes.begin(), state.nodes.end(), t,
+                                   [](const BoundaryNode& n, std::int32_t value) { return n.t < value; });
+  const auto section = at - state.nodes.begin();
+  state.cut.insert(state.cut.begin() + section, state.cut[static_cast<std::size_t>(section)]);
+  state.nodes.insert(at, {t, stamp});
+}
+
+void stamp_edge_node(HybridMesh& mesh, AncestorEdgeId edge, std::int32_t t, std::uint32_t stamp) {
+  const auto& ends = mesh.ancestors.edges[edge.index()].nodes;
+  if (t == 0 || t == lattice_size) {
+    mesh.node_stamps[ends[t == 0 ? 0 : 1].index()] = stamp;
+    return;
+  }
+  for (BoundaryNode& n : edge_state_for_writing(mesh, edge).nodes)
+    if (n.t == t) n.stamp = stamp;
+}
+
+std::vector<LatticePoint> boundary_points(const HybridMesh& mesh, AncestorId triangle, std::size_t i) {
+  std::vector<LatticePoint> points;
+  const EdgeState* state = mesh.edge_state(mesh.ancestors.triangles[triangle.index()].edges[i]);
+  if (state == nullptr) return points;
+  const bool reversed = mesh.ancestors.reversed(triangle, i);
+  for (const BoundaryNode& n : state->nodes)
+    points.push_back(lattice_point_on_edge(i, reversed ? lattice_size - n.t : n.t));
+  if (reversed) std::reverse(points.begin(), points.end());
+  return points;
+}
+
+}  // namespace cut

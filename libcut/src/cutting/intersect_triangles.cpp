@@ -1,0 +1,162 @@
+#include "cutting/intersect_triangles.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "lattice/orientation.hpp"
+#include "mesh/vector3.hpp"
+
+namespace cut {
+namespace {
+
+using Vector3 = Eigen::Vector3d;
+using lattice::operator-;
+
+bool less(const Vector3& a, const Vector3& b) {
+  return std::tie(a.x(), a.y(), a.z()) < std::tie(b.x(), b.y(), b.z());
+}
+
+/// Unit vectors in the plane with this normal that point to the left of each edge.
+std::array<Vector3, 3> inward_vectors(const std::array<Vector3, 3>& corners, const Vector3& normal) {
+  std::array<Vector3, 3> result;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vector3 v = cross(normal, corners[next_corner(k)] - corners[k]);
+    result[k] = v / length(v);
+  }
+  return result;
+}
+
+/// @return false when the triangle has no area to speak of
+bool unit_normal(const std::array<Vector3, 3>& corners, Vector3& normal) {
+  const Vector3 a = corners[1] - corners[0];
+  const Vector3 b = corners[2] - corners[0];
+  const Vector3 n = cross(a, b);
+  const double area = length(n);
+  const double longest = std::max({dot(a, a), dot(b, b), squared_length(corners[2] - corners[1])});
+  if (!(area > 1e-14 * longest)) return false;
+  normal = n / area;
+  return true;
+}
+
+double height(const Vector3& p, const Vector3& normal, const Vector3& origin, double slack) {
+  const double h = dot(normal, p - origin);
+  return std::abs(h) <= slack ? 0 : h;
+}
+
+std::int32_t to_lattice(double b) {
+  return static_cast<std::int32_t>(std::floor(std::clamp(b, 0.0, 1.0) * lattice_size + 0.5));
+}
+
+/// Barycentric coordinates of points of a triangle's plane.
+struct PlaneCoordinates {
+  Vector3 origin, u, v;
+  double uu, uv, vv, determinant;
+
+  explicit PlaneCoordinates(const std::array<Vector3, 3>& c)
+      : origin(c[0]),
+        u(c[1] - c[0]),
+        v(c[2] - c[0]),
+        uu(dot(u, u)),
+        uv(dot(u, v)),
+        vv(dot(v, v)),
+        determinant(uu * vv - uv * uv) {}
+
+  [[nodiscard]] LatticePoint operator()(const Vector3& p) const {
+    const Vector3 w = p - origin;
+    const double wu = dot(w, u);
+    const double wv = dot(w, v);
+    LatticePoint result{to_lattice((vv * wu - uv * wv) / determinant),
+                        to_lattice((uu * wv - uv * wu) / determinant)};
+    result.y = std::min(result.y, lattice_size - result.x);
+    return result;
+  }
+};
+
+/// Orders points along the line through the two that are furthest apart.
+void sort_along_line(std::vector<LatticePoint>& points) {
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  if (points.size() < 3) return;
+  std::int64_t furthest = -1;
+  LatticePoint from;
+  LatticePoint to;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (std::size_t j = i + 1; j < points.size(); ++j) {
+      const lattice::Vector d = points[j] - points[i];
+      if (dot(d, d) <= furthest) continue;
+      furthest = dot(d, d);
+      from = points[i];
+      to = points[j];
+    }
+  const auto along = [&](LatticePoint p) { return lattice::dot(p - from, to - from); };
+  std::stable_sort(points.begin(), points.end(),
+                   [&](LatticePoint a, LatticePoint b) { return along(a) < along(b); });
+}
+
+}  // namespace
+
+bool CutterFace::prepare(std::array<Vector3, 3> points) {
+  std::sort(points.begin(), points.end(), less);
+  corners = points;
+  if (!unit_normal(corners, normal)) return false;
+  inward = inward_vectors(corners, normal);
+  return true;
+}
+
+bool CutterFace::contains(const Vector3& p, double slack) const {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (!(dot(inward[k], p - corners[k]) >= -slack)) return false;
+  return true;
+}
+
+void intersect(const PhysicsFace& triangle, const CutterFace& cutter, double slack,
+               std::vector<LatticePoint>& points) {
+  points.clear();
+  std::array<double, 3> h;
+  for (std::size_t k = 0; k < 3; ++k)
+    h[k] = height(triangle.corners[k], cutter.normal, cutter.corners[0], slack);
+  const auto [low, high] = std::minmax({h[0], h[1], h[2]});
+  if (low > 0 || high < 0 || (low == 0 && high == 0)) return;
+  PhysicsFace face = triangle;
+  Vector3 normal;
+  if (!unit_normal(face.corners, normal)) return;
+  std::array<double, 3> g;
+  for (std::size_t k = 0; k < 3; ++k) g[k] = height(cutter.corners[k], normal, face.corners[0], slack);
+  const auto [below, above] = std::minmax({g[0], g[1], g[2]});
+  if (below > 0 || above < 0 || (below == 0 && above == 0)) return;
+
+  for (std::size_t k = 0; k < 3; ++k)
+    if (h[k] == 0 && cutter.contains(face.corners[k], slack)) points.push_back(lattice_corner(k));
+  for (std::size_t k = 0; k < 3; ++k) {
+    std::size_t from = k;
+    std::size_t to = next_corner(k);
+    if (triangle.reversed[k]) std::swap(from, to);
+    if (!((h[from] < 0 && h[to] > 0) || (h[from] > 0 && h[to] < 0))) continue;
+    const double t = h[from] / (h[from] - h[to]);
+    if (!cutter.contains(face.corners[from] + (face.corners[to] - face.corners[from]) * t, slack)) continue;
+    const std::int32_t units = to_lattice(t);
+    points.push_back(lattice_point_on_edge(k, triangle.reversed[k] ? lattice_size - units : units));
+  }
+
+  const PlaneCoordinates coordinates(face.corners);
+  const std::array<Vector3, 3> inward = inward_vectors(face.corners, normal);
+  const auto add_when_inside = [&](const Vector3& p) {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (!(dot(inward[k], p - face.corners[k]) >= -slack)) return;
+    points.push_back(coordinates(p));
+  };
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (g[k] == 0) add_when_inside(cutter.corners[k]);
+    std::size_t from = k;
+    std::size_t to = next_corner(k);
+    if (to < from)
+      std::swap(from, to);  // corners are sorted: both cutter triangles at an edge use the same order
+    if ((g[from] < 0 && g[to] > 0) || (g[from] > 0 && g[to] < 0))
+      add_when_inside(cutter.corners[from] +
+                      (cutter.corners[to] - cutter.corners[from]) * (g[from] / (g[from] - g[to])));
+  }
+  sort_along_line(points);
+}
+
+}  // namespace cut

@@ -1,0 +1,39 @@
+/// @file
+/// Where a cutter triangle meets a physics triangle (§4.1), feature by feature from small to large: physics
+/// node with cutter, physics edge with cutter, cutter node with triangle, cutter edge with triangle. Each
+/// contact is computed from the two features alone, in an order that does not depend on which triangle asks:
+/// all triangles at a feature see the same contact, to the bit.
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "cut/lattice_point.hpp"
+
+namespace cut {
+
+/// A cutter triangle, made ready: corners in lexicographic order, unit normal, inward unit vectors of its
+/// edges.
+struct CutterFace {
+  std::array<Eigen::Vector3d, 3> corners;
+  Eigen::Vector3d normal;
+  std::array<Eigen::Vector3d, 3> inward;  ///< edge k runs from corner k to k + 1
+
+  /// @return false when the triangle has no area to speak of
+  bool prepare(std::array<Eigen::Vector3d, 3> points);
+  /// Signed distances of p from the three edges are at least -slack. @pre p lies in the plane
+  [[nodiscard]] bool contains(const Eigen::Vector3d& p, double slack) const;
+};
+
+/// A physics triangle in space. reversed[k] tells that edge k runs against its ancestor edge.
+struct PhysicsFace {
+  std::array<Eigen::Vector3d, 3> corners;
+  std::array<bool, 3> reversed;
+};
+
+/// The points at which the two triangles touch or cross each other, along their common line; fewer than two
+/// when there is no line (apart, coplanar, or touching in a point).
+void intersect(const PhysicsFace& triangle, const CutterFace& cutter, double slack,
+               std::vector<LatticePoint>& points);
+
+}  // namespace cut

@@ -1,0 +1,189 @@
+#include "cutting/merge_cut_endpoints.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "cutting/polygon_nodes.hpp"
+#include "spatial/point_cluster_dictionary.hpp"
+
+namespace cut {
+namespace {
+
+using lattice::operator-;
+
+PolygonNodes polygon_nodes(const Arrangement& arrangement) {
+  PolygonNodes result(arrangement.polygons.size());
+  for (const CutEdge& e : arrangement.edges)
+    for (const std::uint32_t polygon : {e.left, e.right}) {
+      result.add(polygon, e.from);
+      result.add(polygon, e.to);
+    }
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::uint32_t k = 0; k < arrangement.section_polygons[i].size(); ++k) {
+      result.add(arrangement.section_polygons[i][k], arrangement.edge_node(i, k));
+      result.add(arrangement.section_polygons[i][k], arrangement.edge_node(i, k + 1));
+    }
+  result.finish();
+  return result;
+}
+
+std::int32_t round_to_lattice(double v) { return static_cast<std::int32_t>(std::floor(v + 0.5)); }
+
+class EndpointMerger {
+ public:
+  EndpointMerger(const TriangleWork& work, const CutContext& context)
+      : work_(work), context_(context), nodes_(polygon_nodes(work.before)) {}
+
+  void merge(LineEnd& end, std::uint32_t polygon) const {
+    if (end.on == LineEnd::On::node) return;
+    if (const std::size_t corner = corner_of(end.point); corner < 3) {
+      end = {end.point, LineEnd::On::node, static_cast<std::uint32_t>(corner)};
+    } else if (edge_of(end.point) < 3) {
+      end = {end.point, LineEnd::On::physics_edge, 0};
+    } else if (const auto node = nearest_node(end.point, polygon)) {
+      end = {point(*node), LineEnd::On::node, *node};
+    } else if (end.on == LineEnd::On::nothing) {
+      merge_to_edge(end, polygon);
+    }
+  }
+
+ private:
+  [[nodiscard]] LatticePoint point(std::uint32_t node) const { return work_.before.nodes[node].point; }
+  [[nodiscard]] double reach(std::uint32_t node) const {
+    return context_.recent(work_.before.nodes[node].stamp) ? context_.distances.cut : context_.distances.node;
+  }
+
+  /// The nearest node of the previous cut within δc, else the nearest node within δn.
+  [[nodiscard]] std::optional<std::uint32_t> nearest_node(LatticePoint p, std::uint32_t polygon) const {
+    std::optional<std::uint32_t> best;
+    bool best_recent = false;
+    double best_distance = 0;
+    for (const std::uint32_t n : nodes_.of(polygon)) {
+      const double distance = work_.metric.length(p, point(n));
+      if (distance > reach(n)) continue;
+      const bool recent = context_.recent(work_.before.nodes[n].stamp);
+      if (best && (best_recent > recent || (best_recent == recent && best_distance <= distance))) continue;
+      if (!visible(p, point(n), work_.before.edges, [&](std::uint32_t i) { return point(i); })) continue;
+      best = n;
+      best_recent = recent;
+      best_distance = distance;
+    }
+    return best;
+  }
+
+  void merge_to_edge(LineEnd& end, std::uint32_t polygon) const {
+    const LatticePoint p = end.point;
+    double best = context_.distances.edge * context_.distances.edge;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::uint32_t k = 0; k < work_.before.section_polygons[i].size(); ++k) {
+        if (work_.before.section_polygons[i][k] != polygon) continue;
+        const LatticePoint a = point(work_.before.edge_node(i, k));
+        const LatticePoint b = point(work_.before.edge_node(i, k + 1));
+        const auto d = work_.metric.distance_to_segment(p, a, b);
+        if (d.squared > best) continue;
+        best = d.squared;
+        const std::int32_t from = a[next_corner(i)];
+        const std::int32_t to =
+            k + 1 == work_.before.section_polygons[i].size() ? lattice_size : b[next_corner(i)];
+        end = {lattice_point_on_edge(i, round_to_lattice(from + d.parameter * (to - from))),
+               LineEnd::On::physics_edge, 0};
+      }
+    for (std::uint32_t i = 0; i < work_.before.edges.size(); ++i) {
+      const CutEdge& e = work_.before.edges[i];
+      if (e.left != polygon && e.right != polygon) continue;
+      const LatticePoint a = point(e.from);
+      const LatticePoint b = point(e.to);
+      const auto d = work_.metric.distance_to_segment(p, a, b);
+      if (d.squared >= best) continue;
+      best = d.squared;
+      end = on_cut_edge(i, a, b, d.parameter);
+    }
+  }
+
+  /// The point of cut edge i at this parameter, or the edge's end when that is within reach of it.
+  [[nodiscard]] LineEnd on_cut_edge(std::uint32_t i, LatticePoint a, LatticePoint b, double parameter) const {
+    const CutEdge& e = work_.before.edges[i];
+    const LatticePoint foot{round_to_lattice(a.x + parameter * (b.x - a.x)),
+                            round_to_lattice(a.y + parameter * (b.y - a.y))};
+    const std::uint32_t nearer = parameter < 0.5 ? e.from : e.to;
+    if (work_.metric.length(foot, point(nearer)) <= reach(nearer))
+      return {point(nearer), LineEnd::On::node, nearer};
+    return {foot, LineEnd::On::cut_edge, i};
+  }
+
+  const TriangleWork& work_;
+  const CutContext& context_;
+  PolygonNodes nodes_;
+};
+
+}  // namespace
+
+void merge_cut_endpoints(TriangleWork& work, const CutContext& context) {
+  if (work.lines.empty()) return;
+  const EndpointMerger merger(work, context);
+  for (CuttingLine& line : work.lines) {
+    merger.merge(line.a, line.polygon);
+    merger.merge(line.b, line.polygon);
+  }
+}
+
+void merge_free_endpoints(TriangleWork& work, const std::vector<LatticePoint>& boundary_points,
+                          const CutContext& context) {
+  const auto is_open = [](const LineEnd& e) {
+    return e.on == LineEnd::On::nothing || e.on == LineEnd::On::cut_edge;
+  };
+  std::vector<std::pair<std::uint32_t, LineEnd>> open;
+  for (const CuttingLine& line : work.lines)
+    for (const LineEnd& end : {line.a, line.b})
+      if (is_open(end)) open.emplace_back(line.polygon, end);
+  if (open.empty()) return;
+  // Points on cuts first: a free end may go to a cut, not the other way round.
+  std::sort(open.begin(), open.end(), [](const auto& l, const auto& r) {
+    const bool l_free = l.second.on == LineEnd::On::nothing;
+    const bool r_free = r.second.on == LineEnd::On::nothing;
+    return std::tie(l.first, l_free, l.second.point) < std::tie(r.first, r_free, r.second.point);
+  });
+  // The tension-free triangle laid into a plane, for the dictionary.
+  const auto side = [&](LatticePoint p) { return p - LatticePoint{0, 0}; };
+  const double u = std::sqrt(work.metric.squared_length(side(lattice_corner(1))));
+  const double vx = work.metric.inner_product(side(lattice_corner(1)), side(lattice_corner(2))) / u;
+  const double vy = std::sqrt(std::max(work.metric.squared_length(side(lattice_corner(2))) - vx * vx, 0.0));
+  const auto flat = [&](LatticePoint p) {
+    const double x = static_cast<double>(p.x) / lattice_size;
+    const double y = static_cast<double>(p.y) / lattice_size;
+    return spatial::Point<double, 2>{x * u + y * vx, y * vy};
+  };
+  using Clusters = spatial::PointClusterDictionary<double, 2, LatticePoint>;
+  const auto point_of = [&](std::uint32_t n) { return work.before.nodes[n].point; };
+  std::vector<std::pair<std::pair<std::uint32_t, LatticePoint>, LatticePoint>> moved;
+  for (std::size_t i = 0; i < open.size();) {
+    const std::uint32_t polygon = open[i].first;
+    Clusters clusters(context.distances.node);
+    for (const LatticePoint p : boundary_points) clusters.insert_or_merge(flat(p), p);
+    for (; i < open.size() && open[i].first == polygon; ++i) {
+      const LatticePoint p = open[i].second.point;
+      if (!moved.empty() && moved.back().first == std::pair{polygon, p}) continue;
+      const auto nearest = clusters.find_nearest(flat(p));
+      LatticePoint target = p;
+      if (nearest.valid() && visible(p, clusters.value(nearest), work.before.edges, point_of))
+        target = clusters.value(nearest);
+      else
+        clusters.insert_or_merge(flat(p), p);
+      moved.push_back({{polygon, p}, target});
+    }
+  }
+  std::sort(moved.begin(), moved.end());
+  for (CuttingLine& line : work.lines)
+    for (LineEnd* end : {&line.a, &line.b}) {
+      if (!is_open(*end)) continue;
+      const auto found =
+          std::lower_bound(moved.begin(), moved.end(), std::pair{line.polygon, end->point},
+                           [](const auto& entry, const auto& key) { return entry.first < key; });
+      end->point = found->second;
+    }
+}
+
+}  // namespace cut

@@ -1,0 +1,146 @@
+#include "cutting/merge_on_physics_edges.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "cutting/edge_state.hpp"
+
+namespace cut {
+namespace {
+
+struct EdgePoint {
+  AncestorEdgeId edge;
+  std::int32_t t;
+  std::int32_t merged = 0;  ///< where it went
+};
+
+/// Position along its ancestor edge of a point on side i of a triangle.
+std::int32_t along_edge(const AncestorMesh& ancestors, AncestorId triangle, std::size_t i, LatticePoint p) {
+  const std::int32_t t = p[next_corner(i)];
+  return ancestors.reversed(triangle, i) ? lattice_size - t : t;
+}
+
+/// A node of the edge that points may go to.
+struct Target {
+  std::int32_t t;
+  bool recent;
+};
+
+std::vector<Target> targets_of(const HybridMesh& mesh, AncestorEdgeId edge, const CutContext& context) {
+  const auto& ends = mesh.ancestors.edges[edge.index()].nodes;
+  std::vector<Target> targets{{0, context.recent(mesh.node_stamps[ends[0].index()])},
+                              {lattice_size, context.recent(mesh.node_stamps[ends[1].index()])}};
+  if (const EdgeState* state = mesh.edge_state(edge))
+    for (const BoundaryNode& n : state->nodes) targets.push_back({n.t, context.recent(n.stamp)});
+  return targets;
+}
+
+/// The nearest recent node within δc, else the nearest node within δn. `unit` is the length of one lattice
+/// unit.
+bool merge_to_existing(EdgePoint& point, const std::vector<Target>& targets, double unit,
+                       const CutContext& context) {
+  const Target* best = nullptr;
+  for (const Target& target : targets) {
+    const std::int32_t distance = std::abs(target.t - point.t);
+    if (unit * distance > (target.recent ? context.distances.cut : context.distances.node)) continue;
+    if (best != nullptr && std::tuple(!best->recent, std::abs(best->t - point.t), best->t) <=
+                               std::tuple(!target.recent, distance, target.t))
+      continue;
+    best = &target;
+  }
+  if (best == nullptr) return false;
+  point.merged = best->t;
+  return true;
+}
+
+/// Decides all points of one edge. Groups of new points within δn get one node at the point nearest to their
+/// middle.
+bool settle(HybridMesh& mesh, EdgePoint* begin, EdgePoint* end, const CutContext& context) {
+  const AncestorEdgeId edge = begin->edge;
+  const double unit = mesh.ancestors.rest_length(edge) / lattice_size;
+  const std::vector<Target> targets = targets_of(mesh, edge, context);
+  std::vector<EdgePoint*> fresh;
+  for (EdgePoint* p = begin; p != end; ++p)
+    if (!merge_to_existing(*p, targets, unit, context)) fresh.push_back(p);
+  for (std::size_t i = 0; i < fresh.size();) {
+    std::size_t last = i;
+    while (last + 1 < fresh.size() && unit * (fresh[last + 1]->t - fresh[i]->t) <= context.distances.node)
+      ++last;
+    const std::int32_t middle = fresh[i]->t + (fresh[last]->t - fresh[i]->t) / 2;
+    const EdgePoint* centre = *std::min_element(fresh.begin() + static_cast<std::ptrdiff_t>(i),
+                                                fresh.begin() + static_cast<std::ptrdiff_t>(last) + 1,
+                                                [&](const EdgePoint* a, const EdgePoint* b) {
+                                                  return std::abs(a->t - middle) < std::abs(b->t - middle);
+                                                });
+    for (; i <= last; ++i) fresh[i]->merged = centre->t;
+    insert_boundary_node(edge_state_for_writing(mesh, edge), centre->t, context.this_cut);
+  }
+  return !fresh.empty();
+}
+
+}  // namespace
+
+std::vector<AncestorEdgeId> merge_on_physics_edges(HybridMesh& mesh, std::vector<TriangleWork>& works,
+                                                   const CutContext& context) {
+  const AncestorMesh& ancestors = mesh.ancestors;
+  const auto edge_point = [&](const TriangleWork& work, const LineEnd& end) {
+    const std::size_t i = edge_of(end.point);
+    return EdgePoint{ancestors.triangles[work.ancestor.index()].edges[i],
+                     along_edge(ancestors, work.ancestor, i, end.point)};
+  };
+  std::vector<EdgePoint> points;
+  for (const TriangleWork& work : works)
+    for (const CuttingLine& line : work.lines)
+      for (const LineEnd& end : {line.a, line.b})
+        if (end.on == LineEnd::On::physics_edge && edge_of(end.point) < 3 && corner_of(end.point) == 3)
+          points.push_back(edge_point(work, end));
+  const auto less = [](const EdgePoint& a, const EdgePoint& b) {
+    return std::tie(a.edge, a.t) < std::tie(b.edge, b.t);
+  };
+  std::sort(points.begin(), points.end(), less);
+  points.erase(
+      std::unique(points.begin(), points.end(),
+                  [](const EdgePoint& a, const EdgePoint& b) { return a.edge == b.edge && a.t == b.t; }),
+      points.end());
+
+  std::vector<AncestorEdgeId> changed;
+  for (std::size_t i = 0; i < points.size();) {
+    std::size_t end = i;
+    while (end < points.size() && points[end].edge == points[i].edge) ++end;
+    if (settle(mesh, points.data() + i, points.data() + end, context)) changed.push_back(points[i].edge);
+    i = end;
+  }
+  // Only now: a stamp set earlier would hide from the next edge that their common node was part of the
+  // previous cut.
+  for (const EdgePoint& p : points) stamp_edge_node(mesh, p.edge, p.merged, context.this_cut);
+
+  for (TriangleWork& work : works)
+    for (CuttingLine& line : work.lines)
+      for (LineEnd* end : {&line.a, &line.b}) {
+        if (end->on != LineEnd::On::physics_edge || corner_of(end->point) < 3) continue;
+        const std::size_t i = edge_of(end->point);
+        const auto found = std::lower_bound(points.begin(), points.end(), edge_point(work, *end), less);
+        end->point = lattice_point_on_edge(
+            i, ancestors.reversed(work.ancestor, i) ? lattice_size - found->merged : found->merged);
+      }
+
+  std::vector<AncestorId> beside;
+  for (const AncestorEdgeId edge : changed)
+    for (const AncestorId t : ancestors.edges[edge.index()].triangles)
+      if (t.valid()) beside.push_back(t);
+  std::sort(beside.begin(), beside.end());
+  beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
+  const std::size_t with_lines = works.size();
+  std::size_t next = 0;
+  for (const AncestorId t : beside) {
+    while (next < with_lines && works[next].ancestor < t) ++next;
+    if (next < with_lines && works[next].ancestor == t) continue;
+    works.push_back({t, rest_metric(ancestors, t), working_arrangement(mesh, t)});
+  }
+  std::inplace_merge(works.begin(), works.begin() + static_cast<std::ptrdiff_t>(with_lines), works.end(),
+                     [](const TriangleWork& a, const TriangleWork& b) { return a.ancestor < b.ancestor; });
+  return changed;
+}
+
+}  // namespace cut

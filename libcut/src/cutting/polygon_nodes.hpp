@@ -1,0 +1,42 @@
+/// @file
+/// Which nodes lie on which polygon of a triangle, and what can be seen from where: merges stay within one
+/// polygon and do not reach across a cut.
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "lattice/orientation.hpp"
+#include "lattice/planar_graph.hpp"
+
+namespace cut {
+
+/// True when no edge crosses the open segment from p to q. Edges that merely touch it do not hide anything.
+template <class Edges, class PointOf>
+bool visible(LatticePoint p, LatticePoint q, const Edges& edges, const PointOf& point_of) {
+  return std::none_of(edges.begin(), edges.end(), [&](const auto& e) {
+    return lattice::cross_properly(p, q, point_of(e.from), point_of(e.to));
+  });
+}
+
+/// Nodes of each polygon, sorted. Adds the two ends of every edge and every section to the polygons beside
+/// it.
+class PolygonNodes {
+ public:
+  explicit PolygonNodes(std::size_t polygons) : nodes_(polygons) {}
+
+  void add(std::uint32_t polygon, std::uint32_t node) { nodes_[polygon].push_back(node); }
+  void finish() {
+    for (auto& list : nodes_) {
+      std::sort(list.begin(), list.end());
+      list.erase(std::unique(list.begin(), list.end()), list.end());
+    }
+  }
+  [[nodiscard]] std::span<const std::uint32_t> of(std::uint32_t polygon) const { return nodes_[polygon]; }
+
+ private:
+  std::vector<std::vector<std::uint32_t>> nodes_;
+};
+
+}  // namespace cut

@@ -1,0 +1,48 @@
+#include "cutting/state.hpp"
+
+#include "mesh/vector3.hpp"
+
+namespace cut {
+
+Arrangement working_arrangement(const HybridMesh& mesh, AncestorId ancestor) {
+  const Ancestor& triangle = mesh.ancestors.triangles[ancestor.index()];
+  Arrangement result;
+  if (const Arrangement* stored = mesh.arrangement(ancestor)) {
+    result = *stored;
+  } else {
+    result.nodes.resize(3);
+    RenderPolygon polygon;
+    polygon.triangle = TriangleId{ancestor.index()};
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      result.nodes[k].point = lattice_corner(k);
+      result.nodes[k].rendered = true;
+      result.section_polygons[k] = {0};
+      polygon.corners.push_back({k, mesh.buffers.render_triangles[ancestor.index()].vertices[k]});
+    }
+    polygon.loop_ends = {3};
+    polygon.triangles = {RenderTriangleId{ancestor.index()}};
+    result.polygons.push_back(std::move(polygon));
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    result.nodes[k].stamp = mesh.node_stamps[triangle.nodes[k].index()];
+    const EdgeState* edge = mesh.edge_state(triangle.edges[k]);
+    if (edge == nullptr) continue;
+    const auto count = static_cast<std::uint32_t>(edge->nodes.size());
+    const bool reversed = mesh.ancestors.reversed(ancestor, k);
+    for (std::uint32_t i = 0; i < count; ++i)
+      result.nodes[result.edge_node(k, i + 1)].stamp = edge->nodes[reversed ? count - 1 - i : i].stamp;
+  }
+  return result;
+}
+
+lattice::Metric rest_metric(const AncestorMesh& ancestors, AncestorId ancestor) {
+  std::array<double, 3> squared;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto& ends = ancestors.edges[ancestors.triangles[ancestor.index()].edges[k].index()].nodes;
+    squared[k] =
+        squared_length(ancestors.rest_positions[ends[1].index()] - ancestors.rest_positions[ends[0].index()]);
+  }
+  return lattice::Metric(squared);
+}
+
+}  // namespace cut

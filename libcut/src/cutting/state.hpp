@@ -1,0 +1,84 @@
+/// @file
+/// What flows through the steps of a cut (§4). Each step takes it and adds to it; none looks into another.
+///
+///   detect_cutting_lines    works with lines, line ends where the cutter meets the triangle
+///   merge_cut_endpoints     line ends become nodes, points on physics edges, points on cuts, or stay free
+///   merge_on_physics_edges  points on physics edges become boundary nodes, the same for both sides
+///   arrange_triangle        lines become edges of a planar graph: merge_existing_nodes,
+///   join_edge_intersections,
+///                           cut_along_segments, merge_adjacent_edges
+///   detect_disjoint_polygons  the graph's faces become fragments: physics triangles are copied
+///   copy_nodes              physics nodes, springs and render vertices follow
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "cut/arrangement.hpp"
+#include "cut/hybrid_mesh.hpp"
+#include "cut/merge_distances.hpp"
+#include "lattice/metric.hpp"
+#include "lattice/planar_graph.hpp"
+
+namespace cut {
+
+/// One end of a cutting line, on its triangle.
+struct LineEnd {
+  enum class On : std::uint8_t {
+    nothing,       ///< a free point, or not yet decided
+    node,          ///< an existing node: `index` into the arrangement's nodes
+    physics_edge,  ///< a point of a side of the triangle, given by `point` itself
+    cut_edge       ///< a point of a cut: `index` into the arrangement's edges
+  };
+  LatticePoint point;
+  On on = On::nothing;
+  std::uint32_t index = 0;
+
+  auto operator<=>(const LineEnd&) const = default;
+};
+
+/// The part of a cutter triangle's intersection with a physics triangle that lies in its render polygon.
+struct CuttingLine {
+  std::uint32_t polygon = 0;
+  LineEnd a;
+  LineEnd b;
+
+  auto operator<=>(const CuttingLine&) const = default;
+};
+
+/// One ancestor that this cut touches.
+struct TriangleWork {
+  AncestorId ancestor;
+  lattice::Metric metric;
+  Arrangement before;  ///< as the last cut left it; an uncut triangle's is made up
+  std::vector<CuttingLine> lines{};
+
+  // From arrange_triangle on:
+  lattice::PlanarGraph graph{};          ///< nodes as in Arrangement, edges without the sides of the triangle
+  std::vector<std::uint32_t> stamps{};   ///< per node of the graph
+  std::vector<std::uint8_t> rendered{};  ///< per node of the graph
+  std::array<std::uint32_t, 3> boundary_counts{};
+  std::array<std::vector<std::uint32_t>, 3>
+      old_section_polygons{};                               ///< per section now: its polygon in `before`
+  std::array<std::vector<std::uint8_t>, 3> cut_sections{};  ///< per section now: 1 where a line runs along it
+  bool changed = false;                                     ///< nodes or edges differ from `before`
+};
+
+/// What all steps need to know of this call.
+struct CutContext {
+  const MergeDistances& distances;
+  std::uint32_t this_cut;      ///< number of this call, for stamps
+  std::uint32_t previous_cut;  ///< number of the cutter's previous call; 0: none
+
+  /// True for nodes that attract line ends from δc.
+  [[nodiscard]] bool recent(std::uint32_t stamp) const { return stamp != 0 && stamp == previous_cut; }
+};
+
+/// The arrangement of an ancestor, or that of an uncut triangle when it has none; stamps of nodes that it
+/// shares with its neighbours are brought up to date.
+Arrangement working_arrangement(const HybridMesh& mesh, AncestorId ancestor);
+
+/// Squared tension-free lengths of the ancestor's edges.
+lattice::Metric rest_metric(const AncestorMesh& ancestors, AncestorId ancestor);
+
+}  // namespace cut

@@ -1,0 +1,77 @@
+#include "cutting/triangulate_polygons.hpp"
+
+#include <algorithm>
+
+#include "lattice/triangulation.hpp"
+
+namespace cut {
+
+void triangulate_polygons(HybridMesh& mesh, std::span<const TriangleWork> works, ChangeLog& log) {
+  lattice::TriangulationScratch scratch;
+  std::vector<LatticePoint> points;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<RenderTriangleId> idle;
+  auto& render_triangles = mesh.buffers.render_triangles;
+  for (const TriangleWork& work : works) {
+    idle.clear();
+    for (const RenderPolygon& polygon : work.before.polygons)
+      idle.insert(idle.end(), polygon.triangles.begin(), polygon.triangles.end());
+    std::sort(idle.begin(), idle.end(), std::greater<>());
+    Arrangement& arrangement = mesh.arrangements[mesh.arrangement_of[work.ancestor.index()]];
+    for (RenderPolygon& polygon : arrangement.polygons) {
+      points.clear();
+      for (const PolygonCorner& c : polygon.corners) points.push_back(arrangement.nodes[c.node].point);
+      lattice::triangulate(points, polygon.loop_ends, work.metric, triangles, scratch);
+      polygon.triangles.clear();
+      for (const auto& t : triangles) {
+        RenderTriangleId id{render_triangles.size()};
+        if (!idle.empty()) {
+          id = idle.back();
+          idle.pop_back();
+        } else if (!mesh.free_render_triangles.empty()) {
+          id = mesh.free_render_triangles.back();
+          mesh.free_render_triangles.pop_back();
+        } else {
+          render_triangles.emplace_back();
+        }
+        render_triangles[id.index()] = {
+            {polygon.corners[t[0]].vertex, polygon.corners[t[1]].vertex, polygon.corners[t[2]].vertex},
+            polygon.triangle};
+        log.render_triangles.push_back(id.value);
+        polygon.triangles.push_back(id);
+      }
+    }
+    for (const RenderTriangleId id : idle) {
+      render_triangles[id.index()] = RenderTriangle{};
+      log.render_triangles.push_back(id.value);
+      mesh.free_render_triangles.push_back(id);
+    }
+  }
+}
+
+void update_vertex_nodes(HybridMesh& mesh, ChangeLog& log) {
+  std::sort(log.triangles.begin(), log.triangles.end());
+  log.triangles.erase(std::unique(log.triangles.begin(), log.triangles.end()), log.triangles.end());
+  const auto update = [&](RenderVertexId v, TriangleId triangle) {
+    RenderVertex& vertex = mesh.buffers.render_vertices[v.index()];
+    const auto& nodes = mesh.buffers.triangles[triangle.index()].nodes;
+    if (vertex.triangle != triangle || vertex.nodes == nodes) return;
+    vertex.nodes = nodes;
+    log.render_vertices.push_back(v.value);
+  };
+  for (const std::uint32_t index : log.triangles) {
+    const TriangleId triangle{index};
+    const AncestorId ancestor = mesh.buffers.triangles[index].ancestor;
+    if (!ancestor.valid()) continue;
+    const Arrangement* arrangement = mesh.arrangement(ancestor);
+    if (arrangement == nullptr) {
+      for (const RenderVertexId v : mesh.buffers.render_triangles[index].vertices) update(v, triangle);
+      continue;
+    }
+    for (const RenderPolygon& polygon : arrangement->polygons)
+      if (polygon.triangle == triangle)
+        for (const PolygonCorner& c : polygon.corners) update(c.vertex, triangle);
+  }
+}
+
+}  // namespace cut
