@@ -13,6 +13,7 @@
 
 #include "../box.hpp"
 #include "../predicates.hpp"
+#include "holder.hpp"
 #include "lanes.hpp"
 
 namespace spatial::detail {
@@ -31,7 +32,7 @@ struct OneByOne {
   [[nodiscard]] std::uint32_t hits(const Rows<T, D>& rows, const Value* values, std::size_t count) const {
     std::uint32_t result = 0;
     for (std::size_t i = 0; i < count; ++i) {
-      result |= static_cast<std::uint32_t>(self().test(rows.box(i), values[i])) << i;
+      result |= static_cast<std::uint32_t>(self().test(rows.box(i), unwrap(values[i]))) << i;
     }
     return result;
   }
@@ -116,11 +117,11 @@ class BoundRelation : public OneByOne<BoundRelation<R, T, D>, T, D> {
 
 template <class F, class T, std::size_t D>
 struct BoundValue : OneByOne<BoundValue<F, T, D>, T, D> {
-  const F* function;
-  explicit BoundValue(const F& f) : function(&f) {}
+  F function;
+  explicit BoundValue(const F& f) : function(f) {}
   template <class Value>
   [[nodiscard]] bool test(const Box<T, D>&, const Value& value) const {
-    return static_cast<bool>((*function)(value));
+    return static_cast<bool>(function(value));
   }
   [[nodiscard]] bool may(const Box<T, D>&) const { return true; }
   [[nodiscard]] bool must(const Box<T, D>&) const { return false; }
@@ -131,13 +132,13 @@ struct BoundValue : OneByOne<BoundValue<F, T, D>, T, D> {
 
 template <class F, class T, std::size_t D>
 struct BoundBox : OneByOne<BoundBox<F, T, D>, T, D> {
-  const F* function;
-  explicit BoundBox(const F& f) : function(&f) {}
+  F function;
+  explicit BoundBox(const F& f) : function(f) {}
   template <class Value>
   [[nodiscard]] bool test(const Box<T, D>& box, const Value&) const {
-    return static_cast<bool>((*function)(box));
+    return static_cast<bool>(function(box));
   }
-  [[nodiscard]] bool may(const Box<T, D>& box) const { return static_cast<bool>((*function)(box)); }
+  [[nodiscard]] bool may(const Box<T, D>& box) const { return static_cast<bool>(function(box)); }
   [[nodiscard]] bool must(const Box<T, D>&) const { return false; }
 };
 
@@ -163,7 +164,7 @@ struct BoundAnd {
   [[nodiscard]] std::uint32_t hits(const Rows<T, D>& rows, const Value* values, std::size_t count) const {
     std::uint32_t result = a.hits(rows, values, count);
     for (std::size_t i = 0; i < count; ++i) {
-      if (((result >> i) & 1u) != 0 && !b.test(rows.box(i), values[i])) result &= ~(1u << i);
+      if (((result >> i) & 1u) != 0 && !b.test(rows.box(i), unwrap(values[i]))) result &= ~(1u << i);
     }
     return result;
   }

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "bound_predicates.hpp"
 #include "node.hpp"
@@ -27,9 +28,15 @@ CoreRows<Core> rows_of(const typename Core::LeafType& leaf) {
   return {leaf.row(0), leaf.capacity};
 }
 
+/// What a search looked at.
+struct NoCounts {
+  void node() {}
+  void leaf(std::size_t) {}
+};
+
 /// Calls `visit(leaf, position)` for every hit until it returns false. Returns whether all were visited.
-template <class Core, class Bound, class Visit>
-bool search(const Core& core, const Bound& predicate, Visit&& visit) {
+template <class Core, class Bound, class Visit, class Counts = NoCounts>
+bool search(const Core& core, const Bound& predicate, Visit&& visit, Counts&& counts = {}) {
   if (core.root().empty() || !predicate.may(core.root_box())) return true;
   SmallStack<ChildRef, stack_inline> stack;
   stack.push(core.root());
@@ -37,6 +44,7 @@ bool search(const Core& core, const Bound& predicate, Visit&& visit) {
     const ChildRef here = stack.pop();
     if (here.is_leaf()) {
       const auto& leaf = core.leaf(here.index());
+      counts.leaf(leaf.count);
       const auto* values = leaf.values();
       for (std::uint32_t begin = 0; begin < leaf.count; begin += mask_bits) {
         const std::uint32_t count = leaf.count - begin < mask_bits ? leaf.count - begin : mask_bits;
@@ -47,6 +55,7 @@ bool search(const Core& core, const Bound& predicate, Visit&& visit) {
       }
     } else {
       const auto& node = core.node(here.index());
+      counts.node();
       const std::uint32_t may = predicate.may_mask(rows_of<Core>(node), 3);
       for (std::uint32_t side = 3; side-- > 0;) {
         if (((may >> side) & 1u) != 0 && !node.child[side].empty()) stack.push(node.child[side]);
@@ -55,5 +64,62 @@ bool search(const Core& core, const Bound& predicate, Visit&& visit) {
   }
   return true;
 }
+
+/// The same walk, one hit at a time.
+template <class Core, class Bound>
+class Cursor {
+ public:
+  Cursor(const Core& core, Bound predicate) : core_(&core), predicate_(std::move(predicate)) {
+    if (!core.root().empty() && predicate_.may(core.root_box())) stack_.push(core.root());
+  }
+
+  /// Goes to the next hit. False if there is none.
+  bool next() {
+    for (;;) {
+      if (hits_ != 0) {
+        position_ = begin_ + static_cast<std::uint32_t>(std::countr_zero(hits_));
+        hits_ &= hits_ - 1;
+        return true;
+      }
+      if (leaf_ != nullptr && begin_ + mask_bits < leaf_->count) {
+        begin_ += mask_bits;
+        test();
+        continue;
+      }
+      leaf_ = nullptr;
+      if (stack_.empty()) return false;
+      const ChildRef here = stack_.pop();
+      if (here.is_leaf()) {
+        leaf_ = &core_->leaf(here.index());
+        begin_ = 0;
+        test();
+        continue;
+      }
+      const auto& node = core_->node(here.index());
+      const std::uint32_t may = predicate_.may_mask(rows_of<Core>(node), 3);
+      for (std::uint32_t side = 3; side-- > 0;) {
+        if (((may >> side) & 1u) != 0 && !node.child[side].empty()) stack_.push(node.child[side]);
+      }
+    }
+  }
+  /// @pre next() was true
+  [[nodiscard]] const typename Core::LeafType& leaf() const { return *leaf_; }
+  [[nodiscard]] std::uint32_t position() const { return position_; }
+
+ private:
+  void test() {
+    const std::uint32_t left = leaf_->count - begin_;
+    const std::uint32_t count = left < mask_bits ? left : static_cast<std::uint32_t>(mask_bits);
+    hits_ = predicate_.hits(rows_of<Core>(*leaf_).from(begin_), leaf_->values() + begin_, count);
+  }
+
+  const Core* core_;
+  Bound predicate_;
+  SmallStack<ChildRef, stack_inline> stack_;
+  const typename Core::LeafType* leaf_ = nullptr;
+  std::uint32_t begin_ = 0;
+  std::uint32_t position_ = 0;
+  std::uint32_t hits_ = 0;
+};
 
 }  // namespace spatial::detail

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "build.hpp"
 #include "cell.hpp"
 #include "leaf.hpp"
 #include "node.hpp"
@@ -41,6 +42,9 @@ class TreeCore {
   using Memory = LeafMemory<Value, T, D, Allocator>;
   template <class X>
   using Rebound = typename std::allocator_traits<Allocator>::template rebind_alloc<X>;
+  using AllocatorType = Allocator;
+  using Nodes = std::vector<NodeType, Rebound<NodeType>>;
+  using Leaves = std::vector<LeafType, Rebound<LeafType>>;
   static constexpr std::uint32_t none = 0xffffffffu;
   /// The soft limit of a leaf (§5.1).
   static constexpr std::uint32_t leaf_limit = 16;
@@ -121,6 +125,88 @@ class TreeCore {
     remove_at(old);
   }
 
+  /// Adds many elements: entries[i] is {box, slot_capacity() + i} and belongs to values[i]. Those whose box
+  /// is not valid have been left out of `entries`, but not of `values`. The whole tree is built anew.
+  template <class Values>
+  void insert_all(std::vector<BuildEntry<T, D>>& entries, Values& values) {
+    const std::size_t first_new = slots_.size();
+    const std::size_t added = entries.size();
+    entries.reserve(added + size_);
+    for (std::uint32_t id = 0; id < first_new; ++id) {
+      if (slots_[id].leaf != none) entries.push_back({box(id), id});
+    }
+    Build<TreeCore> fresh(allocator_);
+    fresh.run(entries);
+    slots_.resize(first_new + values.size());
+    // From here on nothing fails.
+    for (std::uint32_t l = 0; l < fresh.leaves.size(); ++l) {
+      LeafType& home = fresh.leaves[l];
+      for (std::uint32_t i = 0; i < home.count; ++i) {
+        const std::uint32_t id = home.ids()[i];
+        Value& from = id < first_new ? value(id) : values[id - first_new];
+        ::new (static_cast<void*>(home.values() + i)) Value(std::move(from));
+        if (id >= first_new) {
+          slots_[id].leaf = l;
+          slots_[id].position = i;
+        }
+      }
+    }
+    // Old slots are redirected only after all old values have been read through them.
+    for (std::uint32_t l = 0; l < fresh.leaves.size() && first_new > 0; ++l) {
+      const LeafType& home = fresh.leaves[l];
+      for (std::uint32_t i = 0; i < home.count; ++i) {
+        slots_[home.ids()[i]].leaf = l;
+        slots_[home.ids()[i]].position = i;
+      }
+    }
+    for (LeafType& each : leaves_) release_leaf_memory(each);
+    leaves_.clear();
+    nodes_.swap(fresh.nodes);
+    leaves_.swap(fresh.leaves);
+    root_ = fresh.root;
+    root_box_ = fresh.root_box;
+    free_node_ = free_leaf_ = none;
+    any_loose_ = false;
+    for (std::size_t id = slots_.size(); id-- > first_new;) {
+      if (slots_[id].leaf != none) continue;
+      slots_[id].position = free_slot_;
+      free_slot_ = static_cast<std::uint32_t>(id);
+    }
+    size_ += added;
+  }
+
+  /// Takes over the shape, the slots and the boxes of another tree, and makes each value by `make(Value&)`.
+  /// @pre this tree is empty and new
+  template <class Other, class Make>
+  void assign_from(Other& other, Make&& make) {
+    nodes_.assign(other.nodes_.begin(), other.nodes_.end());
+    slots_.assign(other.slots_.begin(), other.slots_.end());
+    leaves_.resize(other.leaves_.size());
+    for (std::size_t l = 0; l < leaves_.size(); ++l) {
+      const LeafType& from = other.leaves_[l];
+      LeafType& to = leaves_[l];
+      to.parent = from.parent;
+      if (from.data == nullptr) continue;
+      to.side = from.side;
+      to.loose = from.loose;
+      to.indivisible = from.indivisible;
+      to.data = Memory::allocate(allocator_, from.capacity);
+      to.capacity = from.capacity;
+      for (std::uint32_t i = 0; i < from.count; ++i, ++to.count) {
+        to.set_box(i, from.box(i));
+        to.ids()[i] = from.ids()[i];
+        ::new (static_cast<void*>(to.values() + i)) Value(make(from.values()[i]));
+      }
+    }
+    free_node_ = other.free_node_;
+    free_leaf_ = other.free_leaf_;
+    free_slot_ = other.free_slot_;
+    root_ = other.root_;
+    root_box_ = other.root_box_;
+    size_ = other.size_;
+    any_loose_ = other.any_loose_;
+  }
+
   void clear() noexcept {
     for (LeafType& each : leaves_) release_leaf_memory(each);
     nodes_.clear();
@@ -137,6 +223,7 @@ class TreeCore {
     root_ = {};
     root_box_ = empty_box<T, D>();
     size_ = 0;
+    any_loose_ = false;
   }
 
   void swap(TreeCore& other) noexcept {
@@ -153,6 +240,57 @@ class TreeCore {
     swap(root_, other.root_);
     swap(root_box_, other.root_box_);
     swap(size_, other.size_);
+    swap(any_loose_, other.any_loose_);
+  }
+
+  /// Takes over everything of another tree. @pre the allocators are equal, or propagate on move assignment
+  void replace_by(TreeCore& other) noexcept {
+    clear();
+    if constexpr (std::allocator_traits<Allocator>::propagate_on_container_move_assignment::value) {
+      allocator_ = other.allocator_;
+    }
+    nodes_ = std::move(other.nodes_);
+    leaves_ = std::move(other.leaves_);
+    slots_ = std::move(other.slots_);
+    free_node_ = other.free_node_;
+    free_leaf_ = other.free_leaf_;
+    free_slot_ = other.free_slot_;
+    root_ = other.root_;
+    root_box_ = other.root_box_;
+    size_ = other.size_;
+    any_loose_ = other.any_loose_;
+    other.leaves_.clear();
+    other.nodes_.clear();
+    other.slots_.clear();
+    other.free_slot_ = none;
+    other.clear();
+  }
+
+  /// The exact bounds: root_box(), unless big leaves have put off the recomputation of theirs.
+  [[nodiscard]] BoxType bounds() const {
+    if (!any_loose_) return root_box_;
+    BoxType result = empty_box<T, D>();
+    std::vector<ChildRef> stack;
+    if (!root_.empty()) stack.push_back(root_);
+    while (!stack.empty()) {
+      const ChildRef here = stack.back();
+      stack.pop_back();
+      if (here.is_leaf()) {
+        extend(result, leaves_[here.index()].bounds());
+        continue;
+      }
+      const NodeType& each = nodes_[here.index()];
+      for (std::size_t s = 0; s < 3; ++s) {
+        if (!each.child[s].empty() && !encloses(result, each.child_box(s))) stack.push_back(each.child[s]);
+      }
+    }
+    return result;
+  }
+
+  /// Bytes of the tables, used and reserved, without the leaves' blocks.
+  [[nodiscard]] std::size_t table_bytes() const {
+    return nodes_.capacity() * sizeof(NodeType) + leaves_.capacity() * sizeof(LeafType) +
+           slots_.capacity() * sizeof(Slot);
   }
 
   /// The volume of what hangs at this link. @pre the parent is a node
@@ -508,7 +646,10 @@ class TreeCore {
   // no result.
   void shrink_leaf(std::uint32_t index) {
     LeafType& home = leaves_[index];
-    if (home.count > 4 * leaf_limit && ++home.loose < home.count / 4) return;
+    if (home.count > 4 * leaf_limit && ++home.loose < home.count / 4) {
+      any_loose_ = true;
+      return;
+    }
     home.loose = 0;
     home.indivisible = false;
     set_link_box(home.parent, home.side, home.bounds());
@@ -600,8 +741,8 @@ class TreeCore {
   }
 
   [[no_unique_address]] Allocator allocator_;
-  std::vector<NodeType, Rebound<NodeType>> nodes_;
-  std::vector<LeafType, Rebound<LeafType>> leaves_;
+  Nodes nodes_;
+  Leaves leaves_;
   std::vector<Slot, Rebound<Slot>> slots_;
   std::uint32_t free_node_ = none;
   std::uint32_t free_leaf_ = none;
@@ -609,6 +750,7 @@ class TreeCore {
   ChildRef root_;
   BoxType root_box_ = empty_box<T, D>();
   std::size_t size_ = 0;
+  bool any_loose_ = false;
 };
 
 }  // namespace spatial::detail

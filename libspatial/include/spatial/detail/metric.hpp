@@ -1,0 +1,125 @@
+/// @file
+/// The orders in which ordered queries find elements: distance from a box, and distance along a path. In:
+/// rows of boxes. Out: a number per box, smaller for a box that encloses another, or `never`.
+#pragma once
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <type_traits>
+
+#include "../box.hpp"
+#include "../predicates.hpp"
+#include "lanes.hpp"
+
+namespace spatial::detail {
+
+/// Distances of integers are computed in double.
+template <class T>
+using DistanceOf = std::conditional_t<std::is_floating_point_v<T>, T, double>;
+
+/// Squared Euclidean distance from a box. Squares that overflow are infinite, and tie.
+template <class T, std::size_t D>
+class BoxMetric {
+ public:
+  using S = DistanceOf<T>;
+  static constexpr S never = std::numeric_limits<S>::quiet_NaN();
+  explicit BoxMetric(const Box<T, D>& query) : q_(query), valid_(is_valid(query)) {}
+
+  /// keys[i] is the key of box i, or NaN for one that is never reached. @pre count <= mask_bits
+  void keys(const Rows<T, D>& rows, std::size_t count, S* keys) const {
+    for (std::size_t i = 0; i < count; ++i) keys[i] = valid_ ? S{0} : never;
+    for (std::size_t a = 0; a < D; ++a) {
+      const T* low = rows.first + a * rows.stride;
+      const T* high = rows.first + (D + a) * rows.stride;
+      const S least = static_cast<S>(q_.min[a]);
+      const S greatest = static_cast<S>(q_.max[a]);
+      for (std::size_t i = 0; i < count; ++i) {
+        const S above = static_cast<S>(low[i]) - greatest;
+        const S below = least - static_cast<S>(high[i]);
+        const S outside = above > below ? above : below;
+        const S gap = outside > 0 ? outside : S{0};
+        keys[i] += gap * gap;
+      }
+    }
+  }
+  [[nodiscard]] static S distance(S key) { return std::sqrt(key); }
+
+ private:
+  Box<T, D> q_;
+  bool valid_;
+};
+
+/// The t at which a path enters a box.
+template <class T, std::size_t D>
+class PathMetric {
+ public:
+  using S = DistanceOf<T>;
+  static constexpr S never = std::numeric_limits<S>::quiet_NaN();
+  template <class P, class L>
+  PathMetric(const P& origin, const P& direction, L limit) : limit_(static_cast<S>(limit)) {
+    for (std::size_t a = 0; a < D; ++a) {
+      origin_[a] = static_cast<S>(origin[a]);
+      direction_[a] = static_cast<S>(direction[a]);
+      valid_ &= std::abs(origin_[a]) <= std::numeric_limits<S>::max() &&
+                std::abs(direction_[a]) <= std::numeric_limits<S>::max();
+    }
+  }
+
+  /// Division, unlike multiplication by an inverse, is monotone after rounding: what a box holds is never
+  /// reached before the box is, and never missed when the box is hit.
+  void keys(const Rows<T, D>& rows, std::size_t count, S* keys) const {
+    S leave[mask_bits];
+    for (std::size_t i = 0; i < count; ++i) {
+      keys[i] = valid_ ? S{0} : never;
+      leave[i] = limit_;
+    }
+    for (std::size_t a = 0; a < D; ++a) {
+      const T* low = rows.first + a * rows.stride;
+      const T* high = rows.first + (D + a) * rows.stride;
+      const S o = origin_[a];
+      const S d = direction_[a];
+      if (d == 0) {
+        for (std::size_t i = 0; i < count; ++i) {
+          if (!(static_cast<S>(low[i]) <= o && o <= static_cast<S>(high[i]))) keys[i] = never;
+        }
+        continue;
+      }
+      const T* near = d > 0 ? low : high;
+      const T* far = d > 0 ? high : low;
+      for (std::size_t i = 0; i < count; ++i) {
+        const S in = (static_cast<S>(near[i]) - o) / d;
+        const S out = (static_cast<S>(far[i]) - o) / d;
+        keys[i] = in > keys[i] ? in : keys[i];
+        leave[i] = out < leave[i] ? out : leave[i];
+      }
+    }
+    for (std::size_t i = 0; i < count; ++i) keys[i] = keys[i] <= leave[i] ? keys[i] : never;
+  }
+  [[nodiscard]] static S distance(S key) { return key; }
+
+ private:
+  Point<S, D> origin_{};
+  Point<S, D> direction_{};
+  S limit_;
+  bool valid_ = true;
+};
+
+template <class T, std::size_t D, class G>
+  requires Geometry<G, T, D>
+auto metric(const NearestPredicate<G>& p) {
+  return BoxMetric<T, D>(to_box<T, D>(p.geometry));
+}
+template <class T, std::size_t D, class P, class L>
+auto metric(const PathPredicate<P, L>& p) {
+  return PathMetric<T, D>(p.origin, p.direction, p.limit);
+}
+template <class G>
+std::size_t count_limit(const NearestPredicate<G>& p) {
+  return p.count;
+}
+template <class P, class L>
+std::size_t count_limit(const PathPredicate<P, L>&) {
+  return static_cast<std::size_t>(-1);
+}
+
+}  // namespace spatial::detail

@@ -1,0 +1,143 @@
+/// @file
+/// All pairs of intersecting elements, within one tree or between two: both trees are walked together, and
+/// only parts whose tight boxes touch are looked at. In: trees. Out: pairs, each once.
+#pragma once
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#include "lanes.hpp"
+#include "node.hpp"
+#include "search.hpp"
+#include "small_stack.hpp"
+
+namespace spatial::detail {
+
+template <class Core>
+Box<typename Core::Scalar, Core::dimension> tight_box(const Core& core, ChildRef ref) {
+  const std::uint32_t parent = ref.is_leaf() ? core.leaf(ref.index()).parent : core.node(ref.index()).parent;
+  if (parent == Core::none) return core.root_box();
+  const std::uint32_t side = ref.is_leaf() ? core.leaf(ref.index()).side : core.node(ref.index()).side;
+  return core.node(parent).child_box(side);
+}
+
+/// Pairs between two leaves. `visit(leaf, position, leaf, position)` returns whether to go on.
+template <class CoreA, class CoreB, class Visit>
+bool leaf_pairs(const typename CoreA::LeafType& a, const typename CoreB::LeafType& b,
+                const Box<typename CoreB::Scalar, CoreB::dimension>& tight_b, Visit& visit) {
+  for (std::uint32_t begin_a = 0; begin_a < a.count; begin_a += mask_bits) {
+    const std::uint32_t count_a = a.count - begin_a < mask_bits ? a.count - begin_a : mask_bits;
+    std::uint32_t near = reaching(rows_of<CoreA>(a).from(begin_a), count_a, tight_b.min, tight_b.max);
+    for (; near != 0; near &= near - 1) {
+      const std::uint32_t i = begin_a + static_cast<std::uint32_t>(std::countr_zero(near));
+      const auto box = a.box(i);
+      for (std::uint32_t begin_b = 0; begin_b < b.count; begin_b += mask_bits) {
+        const std::uint32_t count_b = b.count - begin_b < mask_bits ? b.count - begin_b : mask_bits;
+        std::uint32_t hits = reaching(rows_of<CoreB>(b).from(begin_b), count_b, box.min, box.max);
+        for (; hits != 0; hits &= hits - 1) {
+          if (!visit(a, i, b, begin_b + static_cast<std::uint32_t>(std::countr_zero(hits)))) return false;
+        }
+      }
+    }
+  }
+  return true;
+}
+
+/// Pairs within one leaf, the later element first.
+template <class Core, class Visit>
+bool leaf_self_pairs(const typename Core::LeafType& leaf, Visit& visit) {
+  for (std::uint32_t i = 1; i < leaf.count; ++i) {
+    const auto box = leaf.box(i);
+    for (std::uint32_t begin = 0; begin < i; begin += mask_bits) {
+      const std::uint32_t count = i - begin < mask_bits ? i - begin : mask_bits;
+      std::uint32_t hits = reaching(rows_of<Core>(leaf).from(begin), count, box.min, box.max);
+      for (; hits != 0; hits &= hits - 1) {
+        if (!visit(leaf, i, leaf, begin + static_cast<std::uint32_t>(std::countr_zero(hits)))) return false;
+      }
+    }
+  }
+  return true;
+}
+
+struct RefPair {
+  ChildRef a, b;
+};
+
+/// Pairs between the subtree at `a` and the one at `b`, which are disjoint or belong to different trees.
+template <class CoreA, class CoreB, class Visit>
+bool cross_pairs(const CoreA& core_a, ChildRef a, const CoreB& core_b, ChildRef b, Visit& visit) {
+  SmallStack<RefPair, 4 * stack_inline> stack;
+  stack.push({a, b});
+  while (!stack.empty()) {
+    const RefPair here = stack.pop();
+    if (here.a.is_leaf() && here.b.is_leaf()) {
+      if (!leaf_pairs<CoreA, CoreB>(core_a.leaf(here.a.index()), core_b.leaf(here.b.index()),
+                                    tight_box(core_b, here.b), visit)) {
+        return false;
+      }
+    } else if (here.b.is_leaf()) {
+      const auto& node = core_a.node(here.a.index());
+      const auto box = tight_box(core_b, here.b);
+      const std::uint32_t near = reaching(rows_of<CoreA>(node), 3, box.min, box.max);
+      for (std::uint32_t s = 0; s < 3; ++s) {
+        if (((near >> s) & 1u) != 0 && !node.child[s].empty()) stack.push({node.child[s], here.b});
+      }
+    } else if (here.a.is_leaf()) {
+      const auto& node = core_b.node(here.b.index());
+      const auto box = tight_box(core_a, here.a);
+      const std::uint32_t near = reaching(rows_of<CoreB>(node), 3, box.min, box.max);
+      for (std::uint32_t s = 0; s < 3; ++s) {
+        if (((near >> s) & 1u) != 0 && !node.child[s].empty()) stack.push({here.a, node.child[s]});
+      }
+    } else {
+      const auto& node_a = core_a.node(here.a.index());
+      const auto& node_b = core_b.node(here.b.index());
+      for (std::uint32_t sa = 0; sa < 3; ++sa) {
+        if (node_a.child[sa].empty()) continue;
+        const auto box = node_a.child_box(sa);
+        const std::uint32_t near = reaching(rows_of<CoreB>(node_b), 3, box.min, box.max);
+        for (std::uint32_t sb = 0; sb < 3; ++sb) {
+          if (((near >> sb) & 1u) != 0 && !node_b.child[sb].empty())
+            stack.push({node_a.child[sa], node_b.child[sb]});
+        }
+      }
+    }
+  }
+  return true;
+}
+
+/// Pairs within one tree. Returns whether all were visited.
+template <class Core, class Visit>
+bool self_pairs(const Core& core, Visit&& visit) {
+  if (core.root().empty()) return true;
+  SmallStack<ChildRef, stack_inline> stack;
+  stack.push(core.root());
+  while (!stack.empty()) {
+    const ChildRef here = stack.pop();
+    if (here.is_leaf()) {
+      if (!leaf_self_pairs<Core>(core.leaf(here.index()), visit)) return false;
+      continue;
+    }
+    const auto& node = core.node(here.index());
+    for (std::uint32_t s = 0; s < 3; ++s) {
+      if (node.child[s].empty()) continue;
+      stack.push(node.child[s]);
+      const auto box = node.child_box(s);
+      const std::uint32_t near = reaching(rows_of<Core>(node), s, box.min, box.max);
+      for (std::uint32_t other = 0; other < s; ++other) {
+        if (((near >> other) & 1u) == 0 || node.child[other].empty()) continue;
+        if (!cross_pairs(core, node.child[s], core, node.child[other], visit)) return false;
+      }
+    }
+  }
+  return true;
+}
+
+/// Pairs between two trees. Returns whether all were visited.
+template <class CoreA, class CoreB, class Visit>
+bool tree_pairs(const CoreA& a, const CoreB& b, Visit&& visit) {
+  if (a.root().empty() || b.root().empty() || !touch(a.root_box(), b.root_box())) return true;
+  return cross_pairs(a, a.root(), b, b.root(), visit);
+}
+
+}  // namespace spatial::detail
