@@ -86,7 +86,8 @@ inline std::string fault(const Polygon& polygon, std::span<const std::array<std:
     for (std::size_t i = 0; i < shapes.size(); ++i)
       for (std::size_t j = i + 1; j < shapes.size(); ++j)
         if (interiors_meet(shapes[i], shapes[j])) return "triangles overlap";
-  // Each directed edge of a triangle is once either an edge of the polygon or the reverse of another.
+  // Each directed edge of a triangle occurs once. It is an edge of the polygon, or else another triangle has
+  // its reverse.
   std::sort(edges.begin(), edges.end());
   std::sort(corner_edges.begin(), corner_edges.end());
   if (std::adjacent_find(edges.begin(), edges.end()) != edges.end()) return "edge used twice";
@@ -99,16 +100,15 @@ inline std::string fault(const Polygon& polygon, std::span<const std::array<std:
       return "edge of the polygon at another corner";
   }
   std::sort(contour.begin(), contour.end());
-  for (const auto& [from, to] : edges) {
-    const bool outer = std::binary_search(contour.begin(), contour.end(), Edge(from, to));
-    const bool paired = std::binary_search(edges.begin(), edges.end(), Edge(to, from));
-    if (outer == paired) return outer ? "polygon on both sides of its edge" : "open edge inside";
-  }
+  for (const auto& [from, to] : edges)
+    if (!std::binary_search(contour.begin(), contour.end(), Edge(from, to)) &&
+        !std::binary_search(edges.begin(), edges.end(), Edge(to, from)))
+      return "open edge inside";
   if (by_corner)
     for (const auto& [from, to] : corner_edges) {
       const bool outer = polygon.next(from) == to;
-      if (outer == std::binary_search(corner_edges.begin(), corner_edges.end(), std::pair(to, from)))
-        return "corners do not match across an edge";
+      const bool paired = std::binary_search(corner_edges.begin(), corner_edges.end(), std::pair(to, from));
+      if (outer == paired && polygon.next(to) != from) return "corners do not match across an edge";
     }
   return {};
 }

@@ -1,6 +1,6 @@
 /// @file
-/// Random weakly simple polygons: unions of grid cells, which touch themselves and enclose holes all by
-/// themselves, and star-shaped ones.
+/// Random weakly simple polygons: unions of grid cells, which touch themselves and enclose holes and slits
+/// all by themselves, and star-shaped ones.
 #pragma once
 #include <rapidcheck.h>
 
@@ -19,83 +19,103 @@ enum class AtPinch {
   cross,  ///< over to the other cell: loops touch that are given as separate
 };
 
-/// The loops around the cells (x, y) with label[y * width + x] == wanted, one unit wide, the inside on the
-/// left.
-inline std::vector<std::vector<LatticePoint>> loops_of_cells(const std::vector<int>& label, int width,
-                                                             int wanted, AtPinch at_pinch) {
-  const int height = static_cast<int>(label.size()) / width;
-  const auto inside = [&](int x, int y) {
-    return x >= 0 && y >= 0 && x < width && y < height &&
-           label[static_cast<std::size_t>(y * width + x)] == wanted;
-  };
-  constexpr std::array<LatticePoint, 4> step = {{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
-  std::map<LatticePoint, std::array<bool, 4>> leaving;  // by direction
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      if (!inside(x, y)) continue;
-      if (!inside(x, y - 1)) leaving[{x, y}][0] = true;
-      if (!inside(x + 1, y)) leaving[{x + 1, y}][1] = true;
-      if (!inside(x, y + 1)) leaving[{x + 1, y + 1}][2] = true;
-      if (!inside(x - 1, y)) leaving[{x, y + 1}][3] = true;
+/// Coloured cells, row by row. Cells of one colour hang together where no wall is between them; a wall with
+/// the same polygon on both sides is a slit in it.
+struct Cells {
+  int width, height;
+  std::vector<int> colour;
+  std::vector<bool> wall_right;  ///< by cell: a wall to the cell at x + 1
+  std::vector<bool> wall_above;  ///< by cell: a wall to the cell at y + 1
+
+  [[nodiscard]] std::size_t index(int x, int y) const { return static_cast<std::size_t>(y * width + x); }
+  /// True when one can go from cell (x, y) to the next one in direction d (+x, +y, -x, -y).
+  [[nodiscard]] bool open(int x, int y, std::size_t d) const {
+    const int to_x = x + (d == 0) - (d == 2), to_y = y + (d == 1) - (d == 3);
+    if (to_x < 0 || to_y < 0 || to_x >= width || to_y >= height) return false;
+    const std::size_t from = index(x, y), to = index(to_x, to_y);
+    const bool wall = d % 2 == 0 ? wall_right[std::min(from, to)] : wall_above[std::min(from, to)];
+    return colour[from] == colour[to] && !wall;
+  }
+};
+
+constexpr std::array<LatticePoint, 4> unit_step = {{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+
+/// Numbers the sets of cells that hang together.
+inline std::vector<int> components(const Cells& cells, int& count) {
+  std::vector<int> label(cells.colour.size(), -1);
+  count = 0;
+  for (int y = 0; y < cells.height; ++y)
+    for (int x = 0; x < cells.width; ++x) {
+      if (label[cells.index(x, y)] >= 0) continue;
+      std::vector<LatticePoint> stack = {{x, y}};
+      while (!stack.empty()) {
+        const LatticePoint cell = stack.back();
+        stack.pop_back();
+        label[cells.index(cell.x, cell.y)] = count;
+        for (std::size_t d = 0; d < 4; ++d) {
+          const LatticePoint to = {cell.x + unit_step[d].x, cell.y + unit_step[d].y};
+          if (cells.open(cell.x, cell.y, d) && label[cells.index(to.x, to.y)] < 0) stack.push_back(to);
+        }
+      }
+      ++count;
     }
+  return label;
+}
+
+/// Which of the four unit steps from a grid point are edges of a polygon, the inside on their left.
+using Leaving = std::map<LatticePoint, std::array<bool, 4>>;
+
+inline Leaving edges_around(const Cells& cells, const std::vector<int>& label, int wanted) {
+  Leaving leaving;
+  for (int y = 0; y < cells.height; ++y)
+    for (int x = 0; x < cells.width; ++x) {
+      if (label[cells.index(x, y)] != wanted) continue;
+      if (!cells.open(x, y, 3)) leaving[{x, y}][0] = true;
+      if (!cells.open(x, y, 0)) leaving[{x + 1, y}][1] = true;
+      if (!cells.open(x, y, 1)) leaving[{x + 1, y + 1}][2] = true;
+      if (!cells.open(x, y, 2)) leaving[{x, y + 1}][3] = true;
+    }
+  return leaving;
+}
+
+inline std::vector<std::vector<LatticePoint>> loops_of(const Leaving& leaving, AtPinch at_pinch) {
+  const std::array<std::size_t, 4> turns = at_pinch == AtPinch::stay ? std::array<std::size_t, 4>{1, 0, 3, 2}
+                                                                     : std::array<std::size_t, 4>{3, 0, 1, 2};
+  Leaving left = leaving;
   std::vector<std::vector<LatticePoint>> loops;
-  for (auto& [start, directions] : leaving)
+  for (const auto& [start, directions] : leaving)
     for (std::size_t first = 0; first < 4; ++first) {
-      if (!directions[first]) continue;
+      if (!left[start][first]) continue;
       auto& loop = loops.emplace_back();
       LatticePoint p = start;
       std::size_t d = first;
-      while (leaving[p][d]) {
-        leaving[p][d] = false;
+      while (left[p][d]) {
+        left[p][d] = false;
         loop.push_back(p);
-        p = {p.x + step[d].x, p.y + step[d].y};
-        // At a pinch both turns are open; everywhere else one direction is.
-        const std::array<std::size_t, 3> turns = {at_pinch == AtPinch::stay ? d + 1 : d + 3, d,
-                                                  at_pinch == AtPinch::stay ? d + 3 : d + 1};
-        for (const std::size_t turn : turns)
-          if (leaving[p][turn % 4]) {
-            d = turn % 4;
-            break;
-          }
+        p = {p.x + unit_step[d].x, p.y + unit_step[d].y};
+        const auto& ways = leaving.at(p);
+        d = (d +
+             *std::find_if(turns.begin(), turns.end(), [&](std::size_t t) { return ways[(d + t) % 4]; })) %
+            4;
       }
     }
   return loops;
 }
 
-/// Numbers the sets of cells of one colour that hang together by edges.
-inline std::vector<int> components(const std::vector<int>& colour, int width, int& count) {
-  std::vector<int> label(colour.size(), -1);
-  count = 0;
-  for (int start = 0; start < static_cast<int>(colour.size()); ++start) {
-    if (label[static_cast<std::size_t>(start)] >= 0) continue;
-    std::vector<int> stack = {start};
-    label[static_cast<std::size_t>(start)] = count;
-    while (!stack.empty()) {
-      const int cell = stack.back();
-      stack.pop_back();
-      const auto visit = [&](bool exists, int other) {
-        if (!exists || label[static_cast<std::size_t>(other)] >= 0) return;
-        if (colour[static_cast<std::size_t>(other)] != colour[static_cast<std::size_t>(start)]) return;
-        label[static_cast<std::size_t>(other)] = count;
-        stack.push_back(other);
-      };
-      visit(cell % width > 0, cell - 1);
-      visit(cell % width < width - 1, cell + 1);
-      visit(cell >= width, cell - width);
-      visit(cell + width < static_cast<int>(colour.size()), cell + width);
-    }
-    ++count;
-  }
-  return label;
-}
-
 /// Polygons that partition a rectangle, in one of three shapes: cells with random widths, sheared by an
 /// affine map and with straight corners that come and go; cells with displaced corners; a plain grid.
 inline std::vector<Polygon> random_cell_polygons(AtPinch at_pinch) {
-  const int width = *rc::gen::inRange(1, 11);
-  const int height = *rc::gen::inRange(1, 11);
-  const auto colour = *rc::gen::container<std::vector<int>>(static_cast<std::size_t>(width * height),
-                                                            rc::gen::weightedElement<int>({{3, 0}, {2, 1}}));
+  Cells cells;
+  const int width = cells.width = *rc::gen::inRange(1, 11);
+  const int height = cells.height = *rc::gen::inRange(1, 11);
+  const auto size = static_cast<std::size_t>(width * height);
+  cells.colour = *rc::gen::container<std::vector<int>>(size, rc::gen::weightedElement<int>({{3, 0}, {2, 1}}));
+  // Crossing over at a pinch is only well defined without slits.
+  const auto open = at_pinch == AtPinch::cross ? std::size_t{0} : *rc::gen::element<std::size_t>(0, 1, 5);
+  const auto wall =
+      open == 0 ? rc::gen::just(false) : rc::gen::weightedElement<bool>({{open, false}, {1, true}});
+  cells.wall_right = *rc::gen::container<std::vector<bool>>(size, wall);
+  cells.wall_above = *rc::gen::container<std::vector<bool>>(size, wall);
   const int shape = *rc::gen::inRange(0, 3);
   const auto lines = [](int n) {
     std::vector<std::int32_t> at = {0};
@@ -119,18 +139,22 @@ inline std::vector<Polygon> random_cell_polygons(AtPinch at_pinch) {
     return {ex.x * x + ey.x * y, ex.y * x + ey.y * y};
   };
   int count = 0;
-  const auto label = components(colour, width, count);
+  const auto label = components(cells, count);
   std::vector<Polygon> result;
   for (int wanted = 0; wanted < count; ++wanted) {
+    const Leaving leaving = edges_around(cells, label, wanted);
     Polygon polygon;
-    for (const auto& loop : loops_of_cells(label, width, wanted, at_pinch)) {
+    for (const auto& loop : loops_of(leaving, at_pinch)) {
       std::vector<LatticePoint> placed;
       for (std::size_t i = 0; i < loop.size(); ++i) {
-        const LatticePoint before = loop[i == 0 ? loop.size() - 1 : i - 1],
-                           after = loop[(i + 1) % loop.size()];
-        const bool straight = orientation(before, loop[i], after) == 0;
-        // A displaced corner is kept: another component may have a corner there.
-        if (straight && shape != 1 && *rc::gen::arbitrary<bool>()) continue;
+        const LatticePoint before = loop[i == 0 ? loop.size() - 1 : i - 1];
+        const LatticePoint after = loop[(i + 1) % loop.size()];
+        // A straight corner may go, unless another corner is at the same position.
+        const auto& ways = leaving.at(loop[i]);
+        const bool straight = before != after && orientation(before, loop[i], after) == 0;
+        if (straight && shape != 1 && std::count(ways.begin(), ways.end(), true) == 1 &&
+            *rc::gen::arbitrary<bool>())
+          continue;
         placed.push_back(place(loop[i]));
       }
       polygon.add_loop(placed);

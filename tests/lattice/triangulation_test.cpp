@@ -79,7 +79,8 @@ double smallest_angle(LatticePoint a, LatticePoint b, LatticePoint c, double l12
 double largest_gain(const Polygon& p, const Triangles& triangles, double l12, double l20) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> opposite;
   for (const auto& t : triangles)
-    for (std::size_t k = 0; k < 3; ++k) opposite[{t[k], t[(k + 1) % 3]}] = t[(k + 2) % 3];
+    for (std::size_t k = 0; k < 3; ++k)
+      if (p.next(t[k]) != t[(k + 1) % 3]) opposite[{t[k], t[(k + 1) % 3]}] = t[(k + 2) % 3];
   double gain = 0;
   for (const auto& [edge, apex] : opposite) {
     const auto twin = opposite.find({edge.second, edge.first});
@@ -167,6 +168,31 @@ TEST_CASE("a ring of holes that touch each other cuts the inside off") {
   checked(polygon({square, left, right, below}), 8 + 4, false);
 }
 
+TEST_CASE("what a hole sees to its left") {
+  // Two edges that start at one point; the hole has to find the nearer one, in whichever order they come.
+  const std::vector<LatticePoint> wedge = {{0, 9}, {3, 2}, {1, 2}}, far = {{5, 4}, {5, 5}, {6, 5}};
+  checked(polygon({square, wedge, far}), 10 + 2 - 2, false);
+  checked(polygon({wedge, square, far}), 10 + 2 - 2, false);
+  // A corner at the height of its smallest point, below which an edge hangs down.
+  checked(polygon({square, {{1, 1}, {3, 5}, {3, 1}}, {{5, 5}, {5, 7}, {7, 5}}}), 10 + 4 - 2);
+  // Two corners in line: the nearer one hides the other.
+  checked(polygon({square, {{3, 6}, {4, 8}, {5, 7}}, {{6, 3}, {6, 4}, {7, 3}}}), 10 + 4 - 2);
+  // A point where the hull touches itself has two corners, of which one is visible.
+  checked(polygon({{{0, 0}, {3, 6}, {6, 3}, {0, 0}, {9, 0}, {9, 9}, {0, 9}}, {{4, 1}, {5, 2}, {5, 1}}}),
+          10 + 2 - 2);
+  // A hole that touches itself at its smallest point has two corners there, of which one looks left.
+  const std::vector<LatticePoint> up = {{2, 4}, {4, 8}, {5, 6}}, down = {{2, 4}, {5, 3}, {4, 1}};
+  checked(polygon({square, up, down}), 10 + 2 - 2, false);
+  checked(polygon({square, down, up}), 10 + 2 - 2, false);
+}
+
+TEST_CASE("slits: edges that occur once in each direction") {
+  checked(polygon({{{0, 0}, {9, 0}, {9, 9}, {5, 5}, {9, 9}, {0, 9}}}), 4);
+  checked(polygon({{{0, 0}, {9, 0}, {9, 9}, {0, 9}}, {{3, 4}, {6, 5}}}), 6);
+  // From side to side, with a corner in the middle.
+  checked(polygon({{{0, 0}, {9, 0}, {9, 9}, {0, 9}}, {{3, 4}, {5, 6}, {7, 4}, {5, 6}}}), 8);
+}
+
 TEST_CASE("spirals and combs") {
   for (const std::int32_t n : {1, 2, 10, 60}) {
     const Polygon s = spiral(n), c = comb(n);
@@ -197,6 +223,7 @@ TEST_CASE("random unions of grid cells") {
       RC_ASSERT(triangulate(p.points, p.loop_ends, equilateral, triangles, scratch));
       RC_ASSERT(fault(p, triangles) == "");
       RC_ASSERT(triangles.size() == p.points.size() + 2 * holes(p) - 2);
+      RC_ASSERT(largest_gain(p, triangles, 1, 1) < 1e-6);
     }
   }));
   CHECK(rc::check("touching loops given as separate", [] {

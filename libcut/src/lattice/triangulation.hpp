@@ -46,7 +46,7 @@ struct TriangulationScratch {
 /// @param loop_ends  for each loop, the index behind its last corner.
 /// @pre One loop is the hull (counterclockwise), the others are holes (clockwise). Loops do not cross; they
 ///      may touch themselves and each other where both have a corner. Corners may be straight. No edge has
-///      length zero, none occurs twice. Coordinates are in [0, N].
+///      length zero, none occurs twice, except once in each direction (a slit). Coordinates are in [0, N].
 /// @return true when the polygon is covered. The triangles then have positive area and disjoint interiors,
 ///      each edge of the polygon belongs to one triangle, and there are n + 2h - 2 of them for n corners and
 ///      h holes (holes count once if they touch each other, and not at all if they touch the hull). When a
