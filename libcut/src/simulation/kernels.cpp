@@ -16,13 +16,14 @@ void add_spring_forces(const SpringArrays& springs, const PaddedVector* position
     const PaddedVector& vb = velocities[b];
     const double dx = pb.x - pa.x, dy = pb.y - pa.y, dz = pb.z - pa.z;
     const double ux = vb.x - va.x, uy = vb.y - va.y, uz = vb.z - va.z;
-    const double length = std::sqrt((dx * dx + dy * dy) + dz * dz);
-    // Nodes at the same place: the direction is undefined, and so is the force. None is taken.
-    const double inverse = length > 0 ? 1 / length : 0;
+    const double squared = (dx * dx + dy * dy) + dz * dz;
+    const double length = std::sqrt(squared);
+    // Root and quotient do not wait for each other.
+    const double inverse_squared = squared >= smallest_squared_length ? 1 / squared : 0;
+    const double stretch = springs.stiffness[i] * (length - springs.rest_length[i]);
     // + 0.0: the fourth component, which decides the sign of a zero.
-    const double rate = ((ux * dx + uy * dy) + (uz * dz + 0.0)) * inverse;
-    const double scale =
-        (springs.stiffness[i] * (length - springs.rest_length[i]) + springs.damping[i] * rate) * inverse;
+    const double rate = springs.damping[i] * ((ux * dx + uy * dy) + (uz * dz + 0.0));
+    const double scale = (stretch * length + rate) * inverse_squared;
     const double fx = dx * scale, fy = dy * scale, fz = dz * scale;
     forces[a].x += fx;
     forces[a].y += fy;

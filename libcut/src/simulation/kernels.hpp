@@ -4,6 +4,7 @@
 /// fused with sums.
 #pragma once
 #include <cstddef>
+#include <limits>
 #include <span>
 
 #include "cut/simulation.hpp"
@@ -17,6 +18,10 @@ struct VelocityUpdate {
   double drag;                ///< acceleration against the velocity, per speed [1/s]
   double speed_limit;         ///< for the amount of each component
 };
+
+/// Nodes closer than the root of this are at the same place: the direction of the spring is undefined, and no
+/// force is taken. The smallest normal number, whose inverse is finite.
+inline constexpr double smallest_squared_length = std::numeric_limits<double>::min();
 
 struct Kernels {
   /// Equations 1 to 3: adds the forces of springs and dampers to `forces`. Springs in order of index; their

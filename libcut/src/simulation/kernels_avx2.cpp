@@ -25,8 +25,8 @@ SNIP_AVX2 inline __m256d sums(__m256d a, __m256d b, __m256d c, __m256d d) {
 
 SNIP_AVX2 void add_spring_forces(const SpringArrays& springs, const PaddedVector* positions,
                                  const PaddedVector* velocities, PaddedVector* forces) {
-  const __m256d zero = _mm256_setzero_pd();
   const __m256d one = _mm256_set1_pd(1);
+  const __m256d smallest = _mm256_set1_pd(smallest_squared_length);
   for (std::size_t i = 0; i < springs.nodes.size(); i += 4) {
     const auto* const nodes = &springs.nodes[i];
     const auto along = [&](std::size_t k) SNIP_AVX2 {
@@ -39,16 +39,14 @@ SNIP_AVX2 void add_spring_forces(const SpringArrays& springs, const PaddedVector
     const __m256d squared =
         sums(_mm256_mul_pd(d0, d0), _mm256_mul_pd(d1, d1), _mm256_mul_pd(d2, d2), _mm256_mul_pd(d3, d3));
     const __m256d length = _mm256_sqrt_pd(squared);
-    const __m256d inverse =
-        _mm256_and_pd(_mm256_div_pd(one, length), _mm256_cmp_pd(length, zero, _CMP_GT_OQ));
-    const __m256d rate = _mm256_mul_pd(sums(_mm256_mul_pd(rate_of(0), d0), _mm256_mul_pd(rate_of(1), d1),
-                                            _mm256_mul_pd(rate_of(2), d2), _mm256_mul_pd(rate_of(3), d3)),
-                                       inverse);
-    const __m256d stretch = _mm256_sub_pd(length, _mm256_loadu_pd(&springs.rest_length[i]));
-    const __m256d scale =
-        _mm256_mul_pd(_mm256_add_pd(_mm256_mul_pd(_mm256_loadu_pd(&springs.stiffness[i]), stretch),
-                                    _mm256_mul_pd(_mm256_loadu_pd(&springs.damping[i]), rate)),
-                      inverse);
+    const __m256d inverse_squared =
+        _mm256_and_pd(_mm256_div_pd(one, squared), _mm256_cmp_pd(squared, smallest, _CMP_GE_OQ));
+    const __m256d stretch = _mm256_mul_pd(_mm256_loadu_pd(&springs.stiffness[i]),
+                                          _mm256_sub_pd(length, _mm256_loadu_pd(&springs.rest_length[i])));
+    const __m256d rate = _mm256_mul_pd(_mm256_loadu_pd(&springs.damping[i]),
+                                       sums(_mm256_mul_pd(rate_of(0), d0), _mm256_mul_pd(rate_of(1), d1),
+                                            _mm256_mul_pd(rate_of(2), d2), _mm256_mul_pd(rate_of(3), d3)));
+    const __m256d scale = _mm256_mul_pd(_mm256_add_pd(_mm256_mul_pd(stretch, length), rate), inverse_squared);
     const auto add = [&](std::size_t k, __m256d force) SNIP_AVX2 {
       PaddedVector& a = forces[nodes[k][0]];
       store(a, _mm256_add_pd(load(a), force));
