@@ -16,6 +16,7 @@ namespace oracle {
 struct Stroke {
   scenes::Path points;
   bool closed = false;
+  std::size_t call = 0;  ///< strokes of one call cut at once
 };
 
 /// Cutters in calls: all cutters of one call cut at once.
