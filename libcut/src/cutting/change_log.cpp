@@ -37,6 +37,7 @@ Changes publish(const HybridMesh& mesh, ChangeLog&& log) {
 }
 
 void apply(const Changes& changes, Buffers& buffers) {
+  if (changes.empty()) return;
   apply_to(buffers.nodes, changes.nodes);
   apply_to(buffers.triangles, changes.triangles);
   apply_to(buffers.springs, changes.springs);

@@ -1,0 +1,73 @@
+// The simplest cuts there are, with known results: through cut, slit, cut-out, along edges, through nodes.
+#include <doctest/doctest.h>
+
+#include "cut/cutter.hpp"
+#include "cut/hybrid_mesh.hpp"
+#include "cut/pieces.hpp"
+#include "cut/validate.hpp"
+#include "cut_and_check.hpp"
+#include "scenes/cloths.hpp"
+#include "scenes/cutters.hpp"
+
+namespace {
+
+using cut::HybridMesh;
+using Vector3 = Eigen::Vector3d;
+
+const Vector3 up{0, 0, 1};
+
+/// A vertical wall over the path, through the plane z = 0.
+cut::TriangleMesh wall(scenes::Path path) {
+  for (Vector3& p : path) p.z() = -1;
+  return scenes::ribbon(path, {0, 0, 2});
+}
+
+TEST_CASE("a cut through a sheet gives two pieces") {
+  Session s(scenes::grid(4, 4));
+  s.cut(wall({{-1, 1.3, 0}, {5, 2.6, 0}}));
+  const auto pieces = cut::pieces(s.mesh).list;
+  REQUIRE(pieces.size() == 2);
+  CHECK(pieces[0].rest_area + pieces[1].rest_area == doctest::Approx(16).epsilon(1e-12));
+  for (const auto& p : pieces) CHECK(p.boundary_loops == 1);
+  for (const auto& p : pieces) CHECK(p.euler_characteristic == 1);
+}
+
+TEST_CASE("a slit gives one piece with one hole") {
+  Session s(scenes::grid(4, 4));
+  s.cut(wall({{0.7, 1.3, 0}, {3.2, 2.6, 0}}));
+  const auto pieces = cut::pieces(s.mesh).list;
+  REQUIRE(pieces.size() == 1);
+  CHECK(pieces[0].boundary_loops == 2);
+  CHECK(pieces[0].euler_characteristic == 0);
+}
+
+TEST_CASE("a cut-out gives an annulus and a disc") {
+  Session s(scenes::grid(4, 4));
+  s.cut(wall({{0.7, 0.8, 0}, {3.2, 0.9, 0}, {3.1, 3.2, 0}, {0.8, 3.3, 0}, {0.7, 0.8, 0}}));
+  const auto pieces = cut::pieces(s.mesh).list;
+  REQUIRE(pieces.size() == 2);
+  CHECK(pieces[0].boundary_loops + pieces[1].boundary_loops == 3);
+}
+
+TEST_CASE("a cut through nodes and along edges makes no new nodes on edges") {
+  Session s(scenes::grid(4, 4));
+  s.cut(wall({{-1, 2, 0}, {5, 2, 0}}));
+  CHECK(cut::pieces(s.mesh).list.size() == 2);
+  CHECK(s.mesh.buffers.triangles.size() == 32);
+  CHECK(s.mesh.buffers.nodes.size() == 25 + 5);
+}
+
+TEST_CASE("the same cut twice changes nothing") {
+  Session s(scenes::grid(4, 4));
+  s.cut(wall({{-1, 1.3, 0}, {5, 2.6, 0}}));
+  CHECK(s.cut(wall({{-1, 1.3, 0}, {5, 2.6, 0}})).empty());
+}
+
+TEST_CASE("a cut that crosses one triangle only leaves one spring per pair of nodes") {
+  Session s(scenes::grid(1, 1));
+  s.cut(wall({{-1, 0.5, 0}, {0.5, 0.5, 0}}));
+  s.cut(wall({{0.5, -1, 0}, {0.5, 0.5, 0}}));
+  CHECK(s.mesh.buffers.springs.size() >= 5);
+}
+
+}  // namespace
