@@ -1,0 +1,14 @@
+/// @file
+/// frames.csv: a line for each frame.
+#pragma once
+#include <string>
+
+#include "snip/run/scene_run.hpp"
+
+namespace snip {
+
+/// The names of the columns, and one frame in their order; each ends with a line feed.
+std::string frame_header();
+std::string frame_row(const Frame& frame);
+
+}  // namespace snip

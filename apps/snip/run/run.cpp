@@ -1,0 +1,120 @@
+// `snip run`, see run.hpp: the loop over the frames, and what is said and written at its end.
+#include "snip/run/run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <system_error>
+
+#include "cut/validate.hpp"
+#include "snip/commands/report.hpp"
+#include "snip/mesh_file/mesh_file.hpp"
+#include "snip/pieces.hpp"
+#include "snip/rendered_mesh.hpp"
+#include "snip/run/frame_table.hpp"
+#include "snip/run/picture_files.hpp"
+#include "snip/run/progress.hpp"
+#include "snip/run/scene_file.hpp"
+#include "snip/whole_file.hpp"
+
+namespace snip {
+namespace {
+
+/// What the frames added up to.
+struct Totals {
+  std::string table = frame_header();
+  double cut_ms = 0, slowest_cut_ms = 0, simulation_ms = 0;
+
+  void add(const Frame& frame) {
+    table += frame_row(frame);
+    cut_ms += frame.cut_ms;
+    slowest_cut_ms = std::max(slowest_cut_ms, frame.cut_ms);
+    simulation_ms += frame.simulation_ms;
+  }
+};
+
+/// All frames. An error of the simulation is returned; the run then stands at the last good frame.
+Result<> all_frames(SceneRun& run, PictureFiles* pictures, Totals& totals) {
+  const std::size_t count = run.scene().frames;
+  Progress progress(count);
+  for (;;) {
+    totals.add(run.frame());
+    const bool is_last = run.frame().number == count;
+    if (pictures)
+      if (const auto taken = pictures->take(run, is_last); !taken) return taken;
+    const std::size_t pieces = run.frame().pieces;
+    progress.update(run.frame().number, fmt::format("{} piece{}", pieces, pieces == 1 ? "" : "s"));
+    if (is_last) return {};
+    if (const auto advanced = run.advance(); !advanced) return advanced;
+  }
+}
+
+Result<> write_mesh_of(const SceneRun& run, const std::filesystem::path& path) {
+  Mesh mesh = rendered_mesh(run.cloth(), run.mesh());
+  const Pieces pieces = find_pieces(mesh.positions, mesh.triangles);
+  return write_mesh(path, mesh, sort_by_piece(mesh, pieces));
+}
+
+void print_summary(const SceneRun& run, const Totals& totals, const PictureFiles* pictures,
+                   const std::filesystem::path& folder) {
+  const Frame& frame = run.frame();
+  fmt::print(
+      "{} frames, {:.3g} s: {} piece{}, {} physics nodes, {} edges, {} triangles, {} render triangles\n",
+      frame.number, frame.time, frame.pieces, frame.pieces == 1 ? "" : "s", frame.physics_nodes,
+      frame.physics_edges, frame.physics_triangles, frame.render_triangles);
+  const double seconds = totals.simulation_ms / 1000;
+  const auto updates = static_cast<double>(run.simulation().updates());
+  fmt::print("MSDM updates per second: {:.0f} ({:.0f} updates in {:.3g} s)\n",
+             seconds > 0 ? updates / seconds : 0, updates, seconds);
+  fmt::print("cutting: {:.3g} ms in all, {:.3g} ms in the slowest frame\n", totals.cut_ms,
+             totals.slowest_cut_ms);
+  std::string written = run.scene().output.csv ? "frames.csv" : "";
+  const auto add = [&](const std::string& item) { written += (written.empty() ? "" : ", ") + item; };
+  if (!run.scene().output.mesh.empty()) add(run.scene().output.mesh);
+  if (pictures && pictures->picture_count() > 0) add(fmt::format("{} pictures", pictures->picture_count()));
+  if (pictures && pictures->animation_count() > 0) add("animation.webp");
+  if (!written.empty()) fmt::print("written to {}: {}\n", folder.string(), written);
+}
+
+}  // namespace
+
+Result<> run_scene(const RunOptions& options) {
+  auto scene = read_scene(options.scene);
+  if (!scene) return scene.error();
+  scene->frames = options.frames.value_or(scene->frames);
+  auto run = SceneRun::start(*scene, options.scene.parent_path());
+  if (!run) return run.error();
+  if (!run->warning().empty()) report_warning(run->warning());
+
+  const std::filesystem::path folder =
+      options.output_folder.empty() ? options.scene.stem() : options.output_folder;
+  std::error_code failure;
+  std::filesystem::create_directories(folder, failure);
+  if (failure)
+    return Error{fmt::format("{}: the folder cannot be made: {}", folder.string(), failure.message())};
+  std::optional<PictureFiles> pictures;
+  if (!options.no_images) {
+    auto created = PictureFiles::create(*run, folder);
+    if (!created) return created.error();
+    pictures = std::move(*created);
+  }
+
+  Totals totals;
+  const Result<> ran = all_frames(*run, pictures ? &*pictures : nullptr, totals);
+  // What there is gets written, even if the run broke down.
+  if (scene->output.csv)
+    if (const auto written = write_whole_file(folder / "frames.csv", totals.table); !written) return written;
+  if (!scene->output.mesh.empty())
+    if (const auto written = write_mesh_of(*run, folder / scene->output.mesh); !written) return written;
+  if (pictures)
+    if (const auto written = pictures->finish(); !written) return written;
+  for (const cut::Violation& violation : cut::validate(run->mesh(), 3))
+    report_warning(fmt::format("the mesh is not sound: {}: {}", violation.rule, violation.message));
+  if (!ran) return ran;
+  print_summary(*run, totals, pictures ? &*pictures : nullptr, folder);
+  return {};
+}
+
+}  // namespace snip

@@ -1,0 +1,209 @@
+// A scene in motion, see scene_run.hpp.
+#include "snip/run/scene_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <numeric>
+#include <scenes/cutters.hpp>
+#include <utility>
+
+#include "snip/clean.hpp"
+#include "snip/commands/report.hpp"
+
+namespace snip {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// The mesh of a source, where the scene puts it.
+Result<Mesh> load(const MeshSource& source, const std::filesystem::path& folder) {
+  Mesh mesh;
+  if (!source.file.empty()) {
+    auto read = read_clean_mesh(folder / source.file);
+    if (!read) return read.error();
+    mesh = std::move(*read);
+  } else {
+    mesh.positions = source.generated.positions;
+    mesh.triangles = source.generated.triangles;
+    mesh.polygon_count = mesh.triangles.size();
+    mesh.polygon_of_triangle.resize(mesh.triangles.size());
+    std::iota(mesh.polygon_of_triangle.begin(), mesh.polygon_of_triangle.end(), 0u);
+  }
+  for (Eigen::Vector3d& p : mesh.positions) p = source.placement * p;
+  for (Eigen::Vector3d& n : mesh.normals) n = source.placement.linear() * n;
+  return mesh;
+}
+
+double area(const Mesh& mesh) {
+  double sum = 0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Eigen::Vector3d& p = mesh.positions[a];
+    sum += (mesh.positions[b] - p).cross(mesh.positions[c] - p).norm() / 2;
+  }
+  return sum;
+}
+
+/// What is not given follows from the cloth, unless another distance that is given would then break the
+/// order.
+Result<cut::MergeDistances> merge_distances(const MergeSettings& given, const cut::HybridMesh& mesh) {
+  cut::MergeDistances distances = cut::default_merge_distances(mesh);
+  distances.edge = given.edge.value_or(distances.edge);
+  distances.node = given.node.value_or(std::max(distances.node, distances.edge));
+  if (!given.node && given.cut) distances.node = std::min(distances.node, *given.cut);
+  if (!given.edge) distances.edge = std::min(distances.edge, distances.node);
+  distances.cut = given.cut.value_or(std::max(distances.cut, distances.node));
+  const auto checked = cut::checked(distances, mesh);
+  if (!checked) return Error{fmt::format("{}: {}", given.place, checked.error().message)};
+  return *checked;
+}
+
+std::size_t in_use(const auto& entries, auto is_used) {
+  return static_cast<std::size_t>(std::count_if(entries.begin(), entries.end(), is_used));
+}
+
+}  // namespace
+
+SceneRun::SceneRun(Scene scene, Mesh cloth, cut::HybridMesh mesh, cut::Simulation simulation)
+    : scene_(std::move(scene)),
+      cloth_(std::move(cloth)),
+      mesh_(std::move(mesh)),
+      simulation_(std::move(simulation)),
+      pieces_(cut::pieces(mesh_)),
+      colours_(mesh_, pieces_) {
+  simulation_.surroundings = scene_.surroundings;
+  const double stable = simulation_.stable_time_step(scene_.surroundings.integrator);
+  if (scene_.time_step > stable)
+    warning_ =
+        fmt::format("the time step of {} s is more than the {:.3g} s up to which the simulation is stable",
+                    scene_.time_step, stable);
+}
+
+Result<SceneRun> SceneRun::start(const Scene& scene, const std::filesystem::path& folder) {
+  auto cloth = load(scene.cloth, folder);
+  if (!cloth) return cloth.error();
+  const std::string name = scene.cloth.file.empty() ? scene.cloth.place : scene.cloth.file.string();
+  auto mesh = cut::HybridMesh::build(to_triangle_mesh(*cloth));
+  if (!mesh) return explain(mesh.error(), *cloth, name);
+  cut::Material material = scene.material;
+  if (scene.mass) material.density = *scene.mass / area(*cloth);
+  auto simulation = cut::Simulation::build(*mesh, material);
+  if (!simulation) return Error{simulation.error().message};
+  SceneRun run(scene, std::move(*cloth), std::move(*mesh), std::move(*simulation));
+  if (const auto held = run.hold_anchors(); !held) return held.error();
+  if (const auto loaded = run.load_cutters(folder); !loaded) return loaded.error();
+  run.count();
+  return run;
+}
+
+Result<> SceneRun::load_cutters(const std::filesystem::path& folder) {
+  const auto distances = merge_distances(scene_.merge, mesh_);
+  if (!distances) return distances.error();
+  for (const StaticCutter& cutter : scene_.cutters) {
+    const auto mesh = load(cutter.mesh, folder);
+    if (!mesh) return mesh.error();
+    cutter_meshes_.push_back(to_triangle_mesh(*mesh));
+  }
+  for (std::size_t i = 0; i < scene_.cutters.size() + scene_.blades.size(); ++i)
+    cutters_.emplace_back(*distances);
+  return {};
+}
+
+Result<> SceneRun::hold_anchors() {
+  const cut::AncestorMesh& ancestors = mesh_.ancestors;
+  for (const Anchor& anchor : scene_.anchors) {
+    std::vector<unsigned char> held(cloth_.positions.size());
+    for (const std::uint32_t node : anchor.nodes) {
+      if (node >= held.size())
+        return Error{
+            fmt::format("{}: there is no node {}: the cloth has {} nodes", anchor.place, node, held.size())};
+      held[node] = 1;
+    }
+    bool any = false;
+    for (std::size_t n = 0; n < ancestors.rest_positions.size(); ++n) {
+      const bool in_box = anchor.box && anchor.box->contains(ancestors.rest_positions[n]);
+      if (!in_box && !held[ancestors.input_node[n]]) continue;
+      simulation_.anchor(cut::AncestorNodeId{n}, mesh_);
+      any = true;
+    }
+    if (!any) return Error{fmt::format("{}: no node of the cloth is there", anchor.place)};
+  }
+  return {};
+}
+
+Result<> SceneRun::cut_with(cut::Cutter& cutter, const cut::TriangleMesh& mesh, const std::string& name) {
+  const auto changes = cutter.cut(mesh_, mesh);
+  if (!changes) return Error{fmt::format("{}: {}", name, changes.error().message)};
+  if (changes->empty()) return {};
+  if (const auto error = simulation_.apply(*changes, mesh_))
+    return Error{fmt::format("{}: {}", name, error->message)};
+  colours_.add_copies(*changes);
+  return {};
+}
+
+Result<> SceneRun::cut_due(double from, double to) {
+  for (std::size_t i = 0; i < scene_.cutters.size(); ++i) {
+    const StaticCutter& cutter = scene_.cutters[i];
+    for (const std::size_t repetition : repetitions_between(cutter, from, to)) {
+      const Eigen::Vector3d offset = static_cast<double>(repetition) * cutter.step;
+      const auto cut = cut_with(cutters_[i], scenes::moved(cutter_meshes_[i], offset), cutter.mesh.place);
+      if (!cut) return cut;
+    }
+  }
+  for (std::size_t i = 0; i < scene_.blades.size(); ++i) {
+    const MovingBlade& blade = scene_.blades[i];
+    if (!blade_moves_between(blade, from, to)) continue;
+    const auto swept = scenes::swept(blade_at(blade, from), blade_at(blade, to));
+    const auto cut = cut_with(cutters_[scene_.cutters.size() + i], swept, fmt::format("blade {}", i));
+    if (!cut) return cut;
+  }
+  return {};
+}
+
+Result<> SceneRun::advance() {
+  const double frame_time = scene_.frame_time();
+  const double from = static_cast<double>(frame_.number) * frame_time;
+  const double to = static_cast<double>(frame_.number + 1) * frame_time;
+  const auto failed = [&](const std::string& message) {
+    return Error{fmt::format("frame {} ({:.4g} s): {}", frame_.number + 1, from, message)};
+  };
+  const auto start = Clock::now();
+  const auto cut = cut_due(from, to);
+  frame_.cut_ms = milliseconds_since(start);
+  if (mesh_.topology_version != counted_version_) count();
+  if (!cut) return failed(cut.error().message);
+  const auto moving = Clock::now();
+  const auto error = simulation_.step(mesh_, scene_.time_step, scene_.steps_per_frame);
+  frame_.simulation_ms = milliseconds_since(moving);
+  if (error) return failed(error->message);
+  ++frame_.number;
+  frame_.time = to;
+  frame_.energy = simulation_.energy(mesh_);
+  return {};
+}
+
+void SceneRun::count() {
+  if (mesh_.topology_version != counted_version_) {
+    pieces_ = cut::pieces(mesh_);
+    colours_.update(mesh_, pieces_);
+    counted_version_ = mesh_.topology_version;
+  }
+  const cut::Buffers& buffers = mesh_.buffers;
+  frame_.pieces = pieces_.list.size();
+  frame_.physics_nodes = buffers.nodes.size();
+  frame_.physics_edges = simulation_.spring_count();
+  frame_.physics_triangles =
+      in_use(buffers.triangles, [](const cut::PhysicsTriangle& t) { return t.ancestor.valid(); });
+  frame_.render_nodes =
+      in_use(buffers.render_vertices, [](const cut::RenderVertex& v) { return v.triangle.valid(); });
+  frame_.render_triangles =
+      in_use(buffers.render_triangles, [](const cut::RenderTriangle& t) { return t.triangle.valid(); });
+  frame_.energy = simulation_.energy(mesh_);
+}
+
+}  // namespace snip
