@@ -28,10 +28,11 @@ Polygons halves(std::int32_t from = lattice_size / 2, std::int32_t to = lattice_
 void check_same_constants(const cut::Simulation& a, const cut::Simulation& b, const cut::HybridMesh& mesh) {
   REQUIRE(a.node_count() == b.node_count());
   CHECK(a.spring_count() == b.spring_count());
-  for (std::size_t n = 0; n < mesh.positions.size(); ++n) CHECK(a.mass(NodeId{n}) == b.mass(NodeId{n}));
+  for (std::size_t n = 0; n < mesh.positions.size(); ++n)
+    CHECK(a.mass(NodeId{n}) == doctest::Approx(b.mass(NodeId{n})).epsilon(1e-14));
   for (std::size_t s = 0; s < mesh.buffers.springs.size(); ++s) {
-    CHECK(a.stiffness(SpringId{s}) == b.stiffness(SpringId{s}));
-    CHECK(a.damping(SpringId{s}) == b.damping(SpringId{s}));
+    CHECK(a.stiffness(SpringId{s}) == doctest::Approx(b.stiffness(SpringId{s})).epsilon(1e-14));
+    CHECK(a.damping(SpringId{s}) == doctest::Approx(b.damping(SpringId{s})).epsilon(1e-14));
   }
 }
 

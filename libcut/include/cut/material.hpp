@@ -9,7 +9,8 @@ namespace cut {
 enum class MaterialMode : std::uint8_t {
   /// Every fragment carries the part of mass and springs that its render polygon stands for: for corner i the
   /// weight w_i = ∫_f N_i / ∫_T N_i of fragment f in triangle T, N_i the barycentric coordinate. A fragment's
-  /// share of a spring between corners i and j is min(w_i, w_j). Mass, centre of mass and momentum are the
+  /// share of a spring between corners i and j is min(w_i, w_j). A fragment that is cut again divides its own
+  /// weights among its parts. Mass, centre of mass and momentum are the
   /// same before and after a cut, and no cut shrinks `Simulation::cut_proof_time_step`. Anchors stay with the
   /// copies that render the anchored node.
   conserving,

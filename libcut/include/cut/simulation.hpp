@@ -125,11 +125,12 @@ class Simulation {
   void resize(const HybridMesh& mesh);
   void set_mass(NodeId node, double mass);
   void set_spring(SpringId spring, const HybridMesh& mesh);
-  void update_weights(const HybridMesh& mesh, AncestorId ancestor);
+  void measure_weights(const HybridMesh& mesh, AncestorId ancestor);
+  void divide_weights(const Changes& changes, const HybridMesh& mesh, std::size_t first_new);
   void update_copies(const HybridMesh& mesh, AncestorNodeId node);
   void update_springs(const HybridMesh& mesh, AncestorEdgeId edge);
   void copy_nodes(const Changes& changes);
-  void take_over_fragments(const Changes& changes, const HybridMesh& mesh);
+  void take_over_fragments(const Changes& changes, const HybridMesh& mesh, std::size_t first_new_triangle);
   [[nodiscard]] double time_step_limit(Integrator integrator, double stiffness_ratio,
                                        double damping_ratio) const;
 

@@ -21,23 +21,6 @@ void sort_unique(std::vector<T>& values) {
   values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
-/// The triangles of the uncut mesh whose fragments are new or have another shape or other nodes. A fragment
-/// that only lost area needs no entry of its own: another one of the same ancestor gained it.
-std::vector<AncestorId> touched_ancestors(const Changes& changes, const HybridMesh& mesh) {
-  std::vector<AncestorId> touched;
-  const auto add = [&](AncestorId ancestor) {
-    if (ancestor.valid()) touched.push_back(ancestor);
-  };
-  const auto add_triangle = [&](TriangleId t) {
-    if (t.valid()) add(mesh.buffers.triangles[t.index()].ancestor);
-  };
-  for (const auto& entry : changes.triangles.entries) add(entry.value.ancestor);
-  for (const auto& entry : changes.render_vertices.entries) add_triangle(entry.value.triangle);
-  for (const auto& entry : changes.render_triangles.entries) add_triangle(entry.value.triangle);
-  sort_unique(touched);
-  return touched;
-}
-
 }  // namespace
 
 std::optional<Error> Simulation::apply(const Changes& changes, const HybridMesh& mesh) {
@@ -45,10 +28,11 @@ std::optional<Error> Simulation::apply(const Changes& changes, const HybridMesh&
   if (changes.version_before != topology_version_ || changes.version_after != mesh.topology_version)
     return Error{Error::Kind::bad_parameter,
                  "the change set does not lead from the cut that the simulation stands at to the mesh's", 0};
+  const std::size_t first_new_triangle = weights_.size();
   resize(mesh);
   for (const auto& entry : changes.springs.entries) set_spring(SpringId{entry.index}, mesh);
   copy_nodes(changes);
-  if (material_.mode == MaterialMode::conserving) take_over_fragments(changes, mesh);
+  if (material_.mode == MaterialMode::conserving) take_over_fragments(changes, mesh, first_new_triangle);
   topology_version_ = changes.version_after;
   return std::nullopt;
 }
@@ -79,14 +63,18 @@ void Simulation::set_spring(SpringId spring, const HybridMesh& mesh) {
   springs_.damping[i] = used ? material_.damping : 0;
 }
 
-void Simulation::take_over_fragments(const Changes& changes, const HybridMesh& mesh) {
-  const std::vector<AncestorId> touched = touched_ancestors(changes, mesh);
+void Simulation::take_over_fragments(const Changes& changes, const HybridMesh& mesh,
+                                     std::size_t first_new_triangle) {
+  divide_weights(changes, mesh, first_new_triangle);
+  std::vector<AncestorId> touched;
+  for (const auto& entry : changes.triangles.entries)
+    if (entry.value.ancestor.valid()) touched.push_back(entry.value.ancestor);
+  sort_unique(touched);
   std::vector<AncestorNodeId> nodes;
   std::vector<AncestorEdgeId> edges;
   for (const auto& entry : changes.springs.entries)
     if (entry.value.edge.valid()) edges.push_back(entry.value.edge);
   for (const AncestorId t : touched) {
-    update_weights(mesh, t);
     const Ancestor& ancestor = mesh.ancestors.triangles[t.index()];
     nodes.insert(nodes.end(), ancestor.nodes.begin(), ancestor.nodes.end());
     edges.insert(edges.end(), ancestor.edges.begin(), ancestor.edges.end());

@@ -1,6 +1,7 @@
 // What the fragments of cut triangles weigh and how stiff they are (docs/decisions.md, "Conserving
-// material"). Each function recomputes a triangle, all copies of a node or all copies of an edge from the
-// arrangements around it, in a fixed order: nothing drifts however often a place is cut.
+// material"). In: arrangements, and the change set where fragments were divided. Out: weights, masses and
+// spring constants. Masses and constants of all copies of a node or an edge are summed up anew from the
+// weights around it, in a fixed order: nothing drifts however often a place is cut.
 #include <algorithm>
 #include <utility>
 #include <vector>
@@ -19,17 +20,65 @@ bool renders_corner(const Arrangement* arrangement, std::size_t polygon, std::si
   return std::any_of(corners.begin(), corners.end(), [&](const PolygonCorner& c) { return c.node == i; });
 }
 
+lattice::Moments moments_of(const Arrangement& arrangement, const RenderPolygon& polygon) {
+  std::vector<LatticePoint> points;
+  points.reserve(polygon.corners.size());
+  for (const PolygonCorner& corner : polygon.corners) points.push_back(arrangement.nodes[corner.node].point);
+  return lattice::polygon_moments(points, polygon.loop_ends);
+}
+
 }  // namespace
 
-void Simulation::update_weights(const HybridMesh& mesh, AncestorId ancestor) {
-  const Arrangement* arrangement = mesh.arrangement(ancestor);
-  if (!arrangement) return;
-  std::vector<LatticePoint> points;
-  for (const RenderPolygon& polygon : arrangement->polygons) {
-    points.clear();
-    for (const PolygonCorner& corner : polygon.corners)
-      points.push_back(arrangement->nodes[corner.node].point);
-    weights_[polygon.triangle.index()] = lattice::corner_weights(points, polygon.loop_ends);
+/// Weights of all fragments of a triangle from their shape.
+void Simulation::measure_weights(const HybridMesh& mesh, AncestorId ancestor) {
+  if (const Arrangement* arrangement = mesh.arrangement(ancestor))
+    for (const RenderPolygon& polygon : arrangement->polygons)
+      weights_[polygon.triangle.index()] = lattice::corner_weights(moments_of(*arrangement, polygon));
+}
+
+/// The parts of a divided fragment share its weights in the ratio of their integrals. Measuring them anew
+/// would shift mass between nodes that have long moved apart, since a new cut may bend old ones by half a
+/// lattice cell.
+/// @param first_new  number of physics triangles before the cut
+void Simulation::divide_weights(const Changes& changes, const HybridMesh& mesh, std::size_t first_new) {
+  std::vector<TriangleId> sources(weights_.size() -
+                                  first_new);  // per new triangle: the old one it was part of
+  const auto source_of = [&](TriangleId t) {
+    return t.index() < first_new ? t : sources[t.index() - first_new];
+  };
+  std::vector<AncestorId> ancestors;
+  for (const TriangleCopy& copy : changes.triangle_copies) {
+    sources[copy.triangle.index() - first_new] = source_of(copy.source);
+    ancestors.push_back(mesh.buffers.triangles[copy.triangle.index()].ancestor);
+  }
+  std::sort(ancestors.begin(), ancestors.end());
+  ancestors.erase(std::unique(ancestors.begin(), ancestors.end()), ancestors.end());
+
+  struct Part {
+    TriangleId source;
+    TriangleId triangle;
+    lattice::Moments moments;
+  };
+  std::vector<Part> parts;
+  for (const AncestorId ancestor : ancestors) {
+    const Arrangement& arrangement = *mesh.arrangement(ancestor);
+    for (const RenderPolygon& polygon : arrangement.polygons)
+      parts.push_back({source_of(polygon.triangle), polygon.triangle, moments_of(arrangement, polygon)});
+  }
+  std::sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) {
+    return std::pair(a.source, a.triangle) < std::pair(b.source, b.triangle);
+  });
+  for (auto part = parts.begin(); part != parts.end();) {
+    const auto begin = part;
+    lattice::Moments sum{};
+    for (; part != parts.end() && part->source == begin->source; ++part)
+      for (std::size_t i = 0; i < 3; ++i) sum[i] += part->moments[i];
+    if (part - begin == 1) continue;
+    const std::array<double, 3> whole = weights_[begin->source.index()];
+    for (auto p = begin; p != part; ++p)
+      for (std::size_t i = 0; i < 3; ++i)
+        weights_[p->triangle.index()][i] =
+            whole[i] * (static_cast<double>(p->moments[i]) / static_cast<double>(sum[i]));
   }
 }
 

@@ -1,6 +1,6 @@
 // Building a simulation and access to single nodes. In: a hybrid mesh, cut or not, and a material. Out: the
 // flat arrays that a step works on. Masses and springs are set by the functions that also take over cuts
-// (fragments.cpp), so a simulation built from a cut mesh equals one that has followed all its cuts.
+// (fragments.cpp).
 #include "cut/simulation.hpp"
 
 #include <cmath>
@@ -41,7 +41,7 @@ Result<Simulation> Simulation::build(const HybridMesh& mesh, const Material& mat
   s.resize(mesh);
   for (std::size_t i = 0; i < mesh.buffers.springs.size(); ++i) s.set_spring(SpringId{i}, mesh);
   if (material.mode == MaterialMode::conserving) {
-    for (std::size_t t = 0; t < mesh.ancestors.triangles.size(); ++t) s.update_weights(mesh, AncestorId{t});
+    for (std::size_t t = 0; t < mesh.ancestors.triangles.size(); ++t) s.measure_weights(mesh, AncestorId{t});
     for (std::size_t e = 0; e < mesh.ancestors.edges.size(); ++e) s.update_springs(mesh, AncestorEdgeId{e});
   }
   for (std::size_t n = 0; n < mesh.ancestors.rest_positions.size(); ++n)
