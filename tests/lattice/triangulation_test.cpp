@@ -186,6 +186,53 @@ TEST_CASE("what a hole sees to its left") {
   checked(polygon({square, down, up}), 10 + 2 - 2, false);
 }
 
+TEST_CASE("what hides behind what, where angles alone do not tell") {
+  const std::vector<LatticePoint> hull = {{0, 0}, {90, 0}, {90, 90}, {0, 90}};
+  // Left of the last hole two edges start at (0, 90). The speck between them is not visible, though it would
+  // be past the nearer edge.
+  const std::vector<LatticePoint> wedge = {{0, 90}, {30, 20}, {10, 20}}, speck = {{2, 45}, {2, 48}, {4, 46}};
+  checked(polygon({hull, wedge, speck, {{50, 40}, {50, 50}, {60, 50}}}), 13 + 4 - 2, false);
+  // The same after another joint at (0, 90).
+  checked(polygon({hull, wedge, speck, {{20, 80}, {22, 84}, {24, 80}}, {{50, 40}, {50, 50}, {60, 50}}}),
+          16 + 6 - 2, false);
+  // (30, 60) is in line with (0, 90) and hides it from (60, 30).
+  checked(polygon({hull, {{20, 85}, {40, 80}, {30, 60}}, {{60, 30}, {60, 40}, {70, 30}}}), 10 + 4 - 2);
+}
+
+TEST_CASE("the joints between holes and hull do not show") {
+  // Every joint starts as a long edge to the corner (0, 900).
+  for (std::int32_t count = 1; count < 20; ++count)
+    for (std::size_t start = 0; start < 4; ++start) {
+      std::vector<std::vector<LatticePoint>> loops = {{{0, 0}, {200, 0}, {200, 900}, {0, 900}}};
+      std::rotate(loops[0].begin(), loops[0].begin() + static_cast<std::ptrdiff_t>(start), loops[0].end());
+      for (std::int32_t k = 0; k < count; ++k)
+        loops.push_back({{30 + k, 20 + 40 * k}, {40 + k, 50 + 40 * k}, {60 + k, 40 + 40 * k}});
+      const auto p = polygon(loops);
+      const auto n = static_cast<std::size_t>(count);
+      CHECK(largest_gain(p, checked(p, 4 + 3 * n + 2 * n - 2), 1, 1) < 1e-6);
+    }
+}
+
+TEST_CASE("random holes that share the corner they are joined to") {
+  CHECK(rc::check([] {
+    std::vector<std::vector<LatticePoint>> loops = {{{0, 0}, {200, 0}, {200, 900}, {0, 900}}};
+    for (std::int32_t k = 0; k < 20; ++k) {
+      const auto x = [] { return *rc::gen::inRange(1, 199); };
+      const LatticePoint a = {x(), 20 + 40 * k + *rc::gen::inRange(0, 10)};
+      const LatticePoint b = {x(), 32 + 40 * k + *rc::gen::inRange(0, 10)}, c = {x(), 44 + 40 * k};
+      const auto turn = orientation(a, b, c);
+      if (turn < 0) loops.push_back({a, b, c});
+      if (turn > 0) loops.push_back({a, c, b});
+    }
+    const Polygon p = polygon(loops);
+    Triangles triangles;
+    TriangulationScratch scratch;
+    RC_ASSERT(triangulate(p.points, p.loop_ends, equilateral, triangles, scratch));
+    RC_ASSERT(fault(p, triangles) == "");
+    RC_ASSERT(largest_gain(p, triangles, 1, 1) < 1e-6);
+  }));
+}
+
 TEST_CASE("slits: edges that occur once in each direction") {
   checked(polygon({{{0, 0}, {9, 0}, {9, 9}, {5, 5}, {9, 9}, {0, 9}}}), 4);
   checked(polygon({{{0, 0}, {9, 0}, {9, 9}, {0, 9}}, {{3, 4}, {6, 5}}}), 6);
