@@ -93,6 +93,30 @@ Scene random_scene(std::uint64_t seed) {
   return scene;
 }
 
+/// Lines between corners, middles and quarters of cells: they meet nodes, edges and each other's ends
+/// exactly.
+Scene scene_on_grid_points(std::uint64_t seed) {
+  Random random(seed + 1'000'000);
+  const std::size_t columns = 1 + random.below(4);
+  const std::size_t rows = 1 + random.below(4);
+  const bool alternating = random.below(2) == 0;
+  Scene scene{scenes::grid(columns, rows, 1,
+                           alternating ? scenes::Diagonals::alternating : scenes::Diagonals::uniform),
+              {},
+              1 + random.below(3)};
+  const double steps = random.below(2) == 0 ? 1 : (random.below(2) == 0 ? 2 : 4);
+  const auto coordinate = [&](std::size_t cells) {
+    const auto range = static_cast<std::uint64_t>(static_cast<double>(cells) * steps) + 3;
+    return (static_cast<double>(random.below(range)) - 1) / steps;
+  };
+  for (std::uint64_t i = 1 + random.below(7); i > 0; --i) {
+    const Vector3d from{coordinate(columns), coordinate(rows), 0};
+    const Vector3d to{coordinate(columns), coordinate(rows), 0};
+    if (from != to) scene.add({{from, to}});
+  }
+  return scene;
+}
+
 std::vector<Segment> segments_of(const std::vector<Stroke>& strokes) {
   std::vector<Segment> segments;
   for (const Stroke& s : strokes)
@@ -133,7 +157,8 @@ std::string describe(const Scene& scene, double merge) {
   text << "\nby the cutter:";
   for (const double area : actual(scene, merge)) text << ' ' << area;
   text << '\n';
-  text << scene.sheet.triangles.size() << " triangles, " << scene.calls << " calls, strokes:";
+  text << scene.sheet.triangles.size() << " triangles, last node " << scene.sheet.positions.back().transpose()
+       << ", " << scene.calls << " calls, strokes:";
   for (const Stroke& stroke : scene.strokes)
     for (const Segment& s : segments_of({stroke}))
       text << "\n  call " << stroke.call << ": " << s[0].x() << ' ' << s[0].y() << "  " << s[1].x() << ' '
@@ -220,29 +245,11 @@ TEST_CASE("strokes through nodes and along edges") {
   const std::uint64_t count = scene_count(2000);
   for (std::uint64_t seed = 0; seed < count; ++seed) {
     CAPTURE(seed);
-    Random random(seed + 1'000'000);
-    const std::size_t columns = 1 + random.below(4);
-    const std::size_t rows = 1 + random.below(4);
-    Scene scene{
-        scenes::grid(columns, rows, 1,
-                     random.below(2) == 0 ? scenes::Diagonals::alternating : scenes::Diagonals::uniform),
-        {},
-        1 + random.below(3)};
-    // Corners, middles and quarters of cells: lines meet nodes, edges and each other's ends exactly.
-    const double steps = random.below(2) == 0 ? 1 : (random.below(2) == 0 ? 2 : 4);
-    const auto coordinate = [&](std::size_t cells) {
-      const auto range = static_cast<std::uint64_t>(static_cast<double>(cells) * steps) + 3;
-      return (static_cast<double>(random.below(range)) - 1) / steps;
-    };
-    for (std::uint64_t i = 1 + random.below(7); i > 0; --i) {
-      const Vector3d from{coordinate(columns), coordinate(rows), 0};
-      const Vector3d to{coordinate(columns), coordinate(rows), 0};
-      if (from != to) scene.add({{from, to}});
-    }
+    const Scene scene = scene_on_grid_points(seed);
     if (scene.strokes.empty() || agree(scene, merge, tolerance)) continue;
     const Scene small = smallest(scene, merge, tolerance);
-    FAIL_CHECK(columns, " x ", rows, ": GEOS finds ", expected(small).size(), " pieces, the cutter ",
-               actual(small, merge).size(), ": ", describe(small, merge));
+    FAIL_CHECK("GEOS finds ", expected(small).size(), " pieces, the cutter ", actual(small, merge).size(),
+               ": ", describe(small, merge));
   }
 }
 

@@ -27,10 +27,15 @@ Arrangement working_arrangement(const HybridMesh& mesh, AncestorId ancestor) {
     result.nodes[k].stamp = mesh.node_stamps[triangle.nodes[k].index()];
     const EdgeState* edge = mesh.edge_state(triangle.edges[k]);
     if (edge == nullptr) continue;
-    const auto count = static_cast<std::uint32_t>(edge->nodes.size());
+    // The edge may have got nodes since that the arrangement does not know yet.
     const bool reversed = mesh.ancestors.reversed(ancestor, k);
-    for (std::uint32_t i = 0; i < count; ++i)
-      result.nodes[result.edge_node(k, i + 1)].stamp = edge->nodes[reversed ? count - 1 - i : i].stamp;
+    for (std::uint32_t i = 1; i <= result.boundary_counts[k]; ++i) {
+      ArrangementNode& node = result.nodes[result.edge_node(k, i)];
+      const std::int32_t along = node.point[next_corner(k)];
+      const std::int32_t t = reversed ? lattice_size - along : along;
+      for (const BoundaryNode& n : edge->nodes)
+        if (n.t == t) node.stamp = n.stamp;
+    }
   }
   return result;
 }
