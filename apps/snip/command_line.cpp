@@ -17,6 +17,7 @@ int run_command_line(int argc, const char* const* argv) {
   app.footer("snip COMMAND --help explains a command. Exit codes: 0 done, 1 bad input, 2 bad usage.");
   int exit_code = exit_ok;
   add_cut_command(app, exit_code);
+  add_run_command(app, exit_code);
   add_weld_command(app, exit_code);
   add_validate_command(app, exit_code);
   try {

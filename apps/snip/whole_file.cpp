@@ -65,7 +65,10 @@ Result<> write_whole_file(const fs::path& path, std::string_view bytes) {
   };
   std::error_code error;
   fs::path target = path;
-  if (fs::is_symlink(path, error)) target = fs::weakly_canonical(path);
+  if (fs::is_symlink(path, error)) {
+    target = fs::weakly_canonical(path, error);
+    if (error) return failed(error.message());
+  }
   // A target that is not there yet counts as an error; any real one shows when the file is opened.
   if (fs::is_directory(target, error)) return failed("it is a directory");
 

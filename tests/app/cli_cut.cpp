@@ -28,7 +28,7 @@ struct CutSheet {
       REQUIRE(snip::write_mesh(directory / cloth, *sheet));
     }
     const auto outcome =
-        cli_testing::snip(directory, "cut " + cloth + " wall.off -o " + out + " --stats stats.json");
+        cli_testing::snip(directory, fmt::format("cut {} wall.off -o {} --stats stats.json", cloth, out));
     CHECK(outcome.err == "");
     REQUIRE(outcome.exit_code == 0);
     auto result = snip::read_mesh(directory / out);
@@ -139,9 +139,10 @@ TEST_CASE("cli: a cutter that misses changes nothing; one that is not manifold i
   CHECK(out->triangles.size() == 8);
   CHECK(out->positions.size() == 9);
 
+  // Four triangles share the edge between the first two points, which is beside the sheet.
   directory.write("book.obj",
-                  "v .7 -1 -1\nv .7 -1 1\nv .7 3 -1\nv .7 3 1\nv 9 9 9\nv 8 9 9\n"
-                  "f 1 2 3\nf 2 3 4\nf 2 3 5\nf 2 3 6\nf 2 3 4\n");
+                  "v .7 -1 -1\nv .7 -1 1\nv .7 3 -1\nv .7 3 1\nv 1 -9 0\nv 2 -9 0\n"
+                  "f 1 2 3\nf 2 3 4\nf 1 2 4\nf 1 2 5\nf 1 2 6\nf 4 2 3\n");
   const auto cut = cli_testing::snip(directory, "cut sheet.obj book.obj -o out.obj --stats stats.json");
   CHECK(cut.exit_code == 0);
   CHECK(cut.err == "snip: warning: book.obj: dropped triangles: 1 repeated\n");

@@ -1,6 +1,7 @@
 /// @file
 /// Runs the program snip, as built, and catches what it says.
 #pragma once
+#include <fmt/format.h>
 #include <sys/wait.h>
 
 #include <cstdlib>
@@ -19,7 +20,7 @@ struct Outcome {
 /// Runs `snip ARGUMENTS` in the directory.
 inline Outcome snip(const mesh_testing::TemporaryDirectory& directory, const std::string& arguments) {
   const std::string command =
-      "cd '" + directory.path().string() + "' && '" SNIP_PROGRAM "' " + arguments + " > .out 2> .err";
+      fmt::format("cd '{}' && '{}' {} > .out 2> .err", directory.path().string(), SNIP_PROGRAM, arguments);
   const int status = std::system(command.c_str());
   Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, directory.read(".out"),
                   directory.read(".err")};
@@ -38,28 +39,20 @@ inline bool is_one_error(const std::string& text) {
 inline std::string sheet_obj(int n) {
   std::string text;
   for (int y = 0; y <= n; ++y)
-    for (int x = 0; x <= n; ++x) {
-      const std::string xy = std::to_string(x) + " " + std::to_string(y);
-      text += "v " + xy + " 0 " + std::to_string(x / static_cast<double>(n)) + " " +
-              std::to_string(y / static_cast<double>(n)) + " 0\nvt " + xy + "\n";
-    }
+    for (int x = 0; x <= n; ++x)
+      text += fmt::format("v {0} {1} 0 {2} {3} 0\nvt {0} {1}\n", x, y, 1.0 * x / n, 1.0 * y / n);
   text += "vn 0 0 1\n";
   for (int y = 0; y < n; ++y)
     for (int x = 0; x < n; ++x) {
-      text += "f";
-      for (const int v :
-           {y * (n + 1) + x, y * (n + 1) + x + 1, (y + 1) * (n + 1) + x + 1, (y + 1) * (n + 1) + x})
-        text += " " + std::to_string(v + 1) + "/" + std::to_string(v + 1) + "/1";
-      text += "\n";
+      const int v = y * (n + 1) + x + 1;
+      text += fmt::format("f {0}/{0}/1 {1}/{1}/1 {2}/{2}/1 {3}/{3}/1\n", v, v + 1, v + n + 2, v + n + 1);
     }
   return text;
 }
 
 /// A cutter: the wall over the line from (x0, y0) to (x1, y1).
 inline std::string wall_off(double x0, double y0, double x1, double y1) {
-  const std::string a = std::to_string(x0) + " " + std::to_string(y0);
-  const std::string b = std::to_string(x1) + " " + std::to_string(y1);
-  return "OFF\n4 1 0\n" + a + " -1\n" + b + " -1\n" + b + " 1\n" + a + " 1\n4 0 1 2 3\n";
+  return fmt::format("OFF\n4 1 0\n{0} {1} -1\n{2} {3} -1\n{2} {3} 1\n{0} {1} 1\n4 0 1 2 3\n", x0, y0, x1, y1);
 }
 
 }  // namespace cli_testing

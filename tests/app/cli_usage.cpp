@@ -9,7 +9,7 @@ TEST_CASE("cli: help for the program and for every command, version") {
   const auto help = cli_testing::snip(directory, "--help");
   CHECK(help.exit_code == 0);
   CHECK(help.err.empty());
-  for (const char* command : {"cut", "weld", "validate"}) {
+  for (const char* command : {"cut", "run", "weld", "validate"}) {
     CHECK(help.out.find(command) != std::string::npos);
     const auto own = cli_testing::snip(directory, std::string(command) + " --help");
     CHECK(own.exit_code == 0);
@@ -56,6 +56,7 @@ TEST_CASE("cli: bad input is one line and exit code 1, and nothing is written") 
        "snip: error: cut_off.ply:3: the header ends without 'end_header'\n"},
       {"weld good.obj -d 1e-300 -o out.obj", nullptr},
       {"weld good.obj -d 10 -o out.obj", "snip: error: good.obj: no triangle is left: 8 without area\n"},
+      {"run no.json", "snip: error: no.json: no such file\n"},
       {"validate line.obj", "snip: error: line.obj: no triangle is left: 2 without area\n"},
       {"cut good.obj good.obj -o out.obj --merge-cut 1 --merge-node 2", nullptr},
       {"cut good.obj good.obj -o out.obj --merge-edge 0", nullptr},

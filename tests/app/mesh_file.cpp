@@ -66,6 +66,15 @@ TEST_CASE("mesh file: a symbolic link is followed, not replaced") {
   CHECK(directory.read("real.txt") == "new");
 }
 
+TEST_CASE("mesh file: a file that is not there yet, and a link that leads nowhere") {
+  const TemporaryDirectory directory;
+  CHECK(snip::write_whole_file(directory / "new.txt", "new"));
+  CHECK(directory.read("new.txt") == "new");
+  std::filesystem::create_symlink(directory / "loop.txt", directory / "loop.txt");
+  CHECK_FALSE(snip::write_whole_file(directory / "loop.txt", "new"));
+  CHECK(directory.file_count() == 2);
+}
+
 TEST_CASE("mesh file: what cannot be written is said, and leaves nothing behind") {
   const TemporaryDirectory directory;
   const auto mesh = read_mesh(directory.write("in.obj", one_triangle));

@@ -215,3 +215,10 @@ TEST_CASE("ply: bad values in a binary body") {
         "input: byte " + std::to_string(file.size() - 14) +
             ": the file ends within row 2 of 2 of element 'face'");
 }
+
+TEST_CASE("ply: names that are not printable are escaped in errors") {
+  CHECK(refusal("ply\nformat ascii 1.0\nelement a 1\nproperty float \x10\nend_header\nx y\n") ==
+        "input:6: property '\\x10' is not a number: 'x'");
+  CHECK(refusal("ply\nformat ascii 1.0\nelement a 1\nproperty list char int \x10\nend_header\n-1\n") ==
+        "input:6: -1 is no length for list '\\x10'");
+}

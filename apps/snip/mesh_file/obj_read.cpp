@@ -125,7 +125,8 @@ class ObjReader {
 
   // What an index is about.
   enum Kind : std::size_t { vertex, texture, normals };
-  static constexpr std::array<std::string_view, 3> kind_names = {"vertex", "texture coordinate", "normal"};
+  static constexpr std::array<std::string_view, 3> kind_names = {"vertex index", "texture coordinate index",
+                                                                 "normal index"};
 
   // Attributes begin with the first corner that has one; the corners before it have none.
   void append(std::vector<std::uint32_t>& indices, std::string_view word, std::size_t count, Kind kind) {
@@ -140,18 +141,17 @@ class ObjReader {
   // Counts from 1, or backwards from the last one so far when negative. What is not defined yet may still
   // come: the highest such index is looked at in the end.
   std::uint32_t resolve(std::string_view word, std::size_t count, Kind kind) {
-    const std::int64_t number = scan::to_integer(word, line_, fmt::format("{} index", kind_names[kind]));
-    if (number == 0) fail_at_line(line_, "{} index 0 is out of range: the first is 1", kind_names[kind]);
+    const std::int64_t number = scan::to_integer(word, line_, kind_names[kind]);
+    if (number == 0) fail_at_line(line_, "{} 0 is out of range: the first is 1", kind_names[kind]);
     if (number < 0) {
       if (-number > static_cast<std::int64_t>(count))
-        fail_at_line(line_, "{} index {} is out of range: {} defined so far", kind_names[kind], number,
-                     count);
+        fail_at_line(line_, "{} {} is out of range: {} defined so far", kind_names[kind], number, count);
       return static_cast<std::uint32_t>(static_cast<std::int64_t>(count) + number);
     }
     if (number > static_cast<std::int64_t>(count) && number > forward_[kind].number)
       forward_[kind] = {number, line_};
     if (number >= static_cast<std::int64_t>(no_index))
-      fail_at_line(line_, "{} index {} is out of range", kind_names[kind], number);
+      fail_at_line(line_, "{} {} is out of range", kind_names[kind], number);
     return static_cast<std::uint32_t>(number - 1);
   }
 
@@ -160,7 +160,7 @@ class ObjReader {
                                                soup_.normals.size()};
     for (std::size_t kind = 0; kind < 3; ++kind)
       if (forward_[kind].number > static_cast<std::int64_t>(counts[kind]))
-        fail_at_line(forward_[kind].line, "{} index {} is out of range: the file has {}", kind_names[kind],
+        fail_at_line(forward_[kind].line, "{} {} is out of range: the file has {}", kind_names[kind],
                      forward_[kind].number, counts[kind]);
   }
 

@@ -52,6 +52,7 @@ PlyProperty to_property(scan::Words words, std::size_t line) {
   property.type = to_type(type, line);
   property.name = words.next();
   if (property.name.empty()) fail_at_line(line, "property without a name");
+  property.label = "property " + quote(property.name);
   return property;
 }
 

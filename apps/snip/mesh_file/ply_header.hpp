@@ -12,6 +12,7 @@ namespace snip {
 
 struct PlyProperty {
   std::string name;
+  std::string label;  ///< "property 'name'", for messages
   ScalarType type = ScalarType::float32;
   bool is_list = false;
   ScalarType count_type = ScalarType::uint8;

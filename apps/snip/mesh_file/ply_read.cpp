@@ -36,11 +36,12 @@ class AsciiRows {
     if (!word.empty()) fail_here("unexpected {} at the end of the line", scan::quote(word));
   }
   double next(const PlyProperty& property, ScalarType) {
-    return scan::to_number(words_.next(), lines_.number(), fmt::format("property '{}'", property.name));
+    return scan::to_number(words_.next(), lines_.number(), property.label);
   }
   // The words of a list are missed when they are read; a list can announce no more than a line can hold.
   void expect_list(std::size_t length, const PlyProperty& property) const {
-    if (length > lines_.line().size()) fail_here("list '{}' is longer than its line", property.name);
+    if (length > lines_.line().size())
+      fail_here("list {} is longer than its line", scan::quote(property.name));
   }
   template <class... Args>
   [[noreturn]] void fail_here(fmt::format_string<Args...> format, Args&&... args) const {
@@ -99,7 +100,7 @@ template <class Rows>
 std::size_t list_length(Rows& rows, const PlyProperty& property) {
   const double length = rows.next(property, property.count_type);
   if (!(length >= 0) || length != std::floor(length) || length > 4294967295.0)
-    rows.fail_here("{} is no length for list '{}'", length, property.name);
+    rows.fail_here("{} is no length for list {}", length, scan::quote(property.name));
   rows.expect_list(static_cast<std::size_t>(length), property);
   return static_cast<std::size_t>(length);
 }

@@ -1,0 +1,30 @@
+// snip run SCENE [-o DIR] [--frames N] [--no-images]: a cloth that is cut while it moves.
+#include "snip/run/run.hpp"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "snip/command_line.hpp"
+#include "snip/commands/commands.hpp"
+#include "snip/commands/report.hpp"
+
+namespace snip {
+
+void add_run_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("run", "Run a scene: a cloth that is cut while it moves");
+  auto options = std::make_shared<RunOptions>();
+  command->add_option("SCENE", options->scene, "Scene file (docs/scene_file.md)")->required();
+  command->add_option("-o,--output", options->output_folder,
+                      "Folder to write to (default: the scene's name)");
+  command->add_option("--frames", options->frames, "Number of frames, in place of the scene's own")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000'000}));
+  command->add_flag("--no-images", options->no_images, "Write no pictures");
+  command->callback([options, &exit_code] {
+    if (const Result<> result = run_scene(*options); !result) {
+      report_error(result.error());
+      exit_code = exit_bad_input;
+    }
+  });
+}
+
+}  // namespace snip
