@@ -1,5 +1,6 @@
 // Scene files: what is read, and what is said about each kind of mistake.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <fstream>
 #include <sstream>
@@ -317,11 +318,11 @@ TEST_CASE("a cutter is due once in each of its frames, wherever frames begin") {
 TEST_CASE("the documentation names every shape and its keys, and its samples are scenes") {
   const std::string page = file_text("docs/scene_file.md");
   for (const auto& shape : snip::mesh_shapes()) {
-    const std::size_t row = page.find("| `" + std::string(shape.name) + "` |");
+    const std::size_t row = page.find(fmt::format("| `{}` |", shape.name));
     REQUIRE_MESSAGE(row != std::string::npos, shape.name);
     const std::string line = page.substr(row, page.find('\n', row) - row);
     for (const auto& key : shape.keys)
-      CHECK_MESSAGE(line.find("`" + std::string(key) + "`") != std::string::npos, key);
+      CHECK_MESSAGE(line.find(fmt::format("`{}`", key)) != std::string::npos, key);
   }
   std::size_t samples = 0;
   for (std::size_t at = page.find("```json\n"); at != std::string::npos;
@@ -350,7 +351,7 @@ TEST_CASE("the documentation lists every key that an error message can offer") {
     std::istringstream keys(message.substr(start + 12));
     for (std::string key; std::getline(keys, key, ',');) {
       key.erase(0, key.find_first_not_of(' '));
-      CHECK_MESSAGE(page.find("| `" + key + "` |") != std::string::npos, key);
+      CHECK_MESSAGE(page.find(fmt::format("| `{}` |", key)) != std::string::npos, key);
     }
   }
 }

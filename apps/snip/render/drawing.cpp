@@ -44,7 +44,7 @@ void fill(Canvas& canvas, const Camera& camera, const std::array<Vector3d, 3>& c
         opacity);
 }
 
-/// Lambert's law for a lamp to the upper left of the viewer, a fifth of the light from everywhere, and the
+/// Lambert's law for a lamp to the upper left of the viewer, half of the light from everywhere, and the
 /// side that is turned away a little darker, so that a flap that turned over shows.
 Colour shaded(Colour colour, const std::array<Vector3d, 3>& corners, bool perspective) {
   // (right, up, forward) are left-handed, hence the order.
@@ -53,7 +53,7 @@ Colour shaded(Colour colour, const std::array<Vector3d, 3>& corners, bool perspe
   if (!(length > 0)) return colour;
   const Vector3d lamp = Vector3d(-0.35, 0.5, -1).normalized();
   const Vector3d sight = perspective ? corners[0] : Vector3d(0, 0, 1);
-  const double light = 0.2 + 0.95 * std::abs(normal.dot(lamp)) / length;
+  const double light = 0.45 + 0.65 * std::abs(normal.dot(lamp)) / length;
   const double brightness = std::min(light, 1.0) * (normal.dot(sight) < 0 ? 1.0 : 0.8);
   const auto dimmed = [&](std::uint8_t c) { return static_cast<std::uint8_t>(std::lround(c * brightness)); };
   return {dimmed(colour.r), dimmed(colour.g), dimmed(colour.b)};
