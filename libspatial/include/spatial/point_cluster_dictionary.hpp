@@ -6,10 +6,12 @@
 /// The paper nests one dictionary per axis; here one open-addressed table maps a cell to the first of its
 /// centres, which are chained.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -64,19 +66,78 @@ class PointClusterDictionary {
     return fits;
   }
 
-  /// The cluster whose centre is nearest to the point, within δm, ties going to the oldest; else a new
-  /// cluster with this centre and value. O(1).
+  /// The cluster whose centre is nearest to the point, within δm, ties going to the oldest centre; else a new
+  /// cluster with this centre and value. O(1). If it throws, nothing has changed.
   /// @return an invalid cluster, and no change, if the point is not accepted
   MergeResult insert_or_merge(const point_type& point, Value value) {
     if (!accepts(point)) return {};
     const ClusterId near = find_nearest(point);
     if (near.valid()) return {near, false};
     const auto id = static_cast<std::uint32_t>(clusters_.size());
-    clusters_.push_back({std::move(value), point, true});
-    centres_.push_back({point, id, none});
-    link(static_cast<std::uint32_t>(centres_.size() - 1));
+    const auto centre = static_cast<std::uint32_t>(centres_.size());
+    table_.reserve_one();
+    centres_.push_back({point, id, none, none});
+    clusters_.push_back({std::move(value), point, centre, true});
+    link(centre);
     ++size_;
     return {{id}, true};
+  }
+
+  /// Gives a cluster a further centre: points within δm of it are within reach of the cluster too. O(1), as
+  /// long as there are few further centres in one place.
+  /// @return false, and no change, if the point is not accepted, the cluster is not there, or a centre of
+  /// another cluster
+  ///         is within δm
+  bool add_center(ClusterId cluster, const point_type& point) {
+    if (!contains(cluster) || !accepts(point)) return false;
+    bool taken = false;
+    visit_near(point,
+               [&](std::uint32_t centre, double) { taken |= centres_[centre].cluster != cluster.index; });
+    if (taken) return false;
+    table_.reserve_one();
+    Cluster& owner = clusters_[cluster.index];
+    const auto centre = static_cast<std::uint32_t>(centres_.size());
+    centres_.push_back({point, cluster.index, none, owner.last_centre});
+    owner.last_centre = centre;
+    link(centre);
+    return true;
+  }
+
+  /// Removes a cluster and all its centres. Its id is not used again. O(number of its centres).
+  /// @return false if it is not there
+  bool erase(ClusterId cluster) {
+    if (!contains(cluster)) return false;
+    for (std::uint32_t c = clusters_[cluster.index].last_centre; c != none; c = centres_[c].sibling)
+      unlink(c);
+    clusters_[cluster.index].alive = false;
+    --size_;
+    return true;
+  }
+
+  /// Inserts or merges the clusters of another dictionary in their order, with their further centres where
+  /// those are free. @return for each id of the other dictionary, the cluster here
+  std::vector<ClusterId> merge(const PointClusterDictionary& other) {
+    std::vector<ClusterId> result(other.clusters_.size());
+    for (const ClusterId id : other)
+      result[id.index] = insert_or_merge(other.center(id), other.value(id)).cluster;
+    for (const Centre& centre : other.centres_) {
+      if (!other.contains(ClusterId{centre.cluster}) ||
+          centre.point == other.clusters_[centre.cluster].center)
+        continue;
+      add_center(result[centre.cluster], centre.point);
+    }
+    return result;
+  }
+
+  void clear() {
+    table_.clear();
+    clusters_.clear();
+    centres_.clear();
+    size_ = 0;
+  }
+
+  [[nodiscard]] bool contains(ClusterId cluster) const {
+    return cluster.index < clusters_.size() && clusters_[cluster.index].alive;
   }
 
   /// The nearest cluster within δm, or an invalid id. O(1).
@@ -94,11 +155,53 @@ class PointClusterDictionary {
     return best;
   }
 
-  /// Calls `visitor(ClusterId)` for every centre within δm of the point, in no particular order. O(1).
+  /// Calls `visitor(ClusterId)` or `visitor(ClusterId, double squared_distance)` for every centre within δm
+  /// of the point, in no particular order. O(1).
   template <class Visitor>
   void for_each_within(const point_type& point, Visitor&& visitor) const {
-    visit_near(point, [&](std::uint32_t centre, double) { visitor(ClusterId{centres_[centre].cluster}); });
+    visit_near(point, [&](std::uint32_t centre, double squared) {
+      if constexpr (std::is_invocable_v<Visitor&, ClusterId>) {
+        visitor(ClusterId{centres_[centre].cluster});
+      } else {
+        visitor(ClusterId{centres_[centre].cluster}, squared);
+      }
+    });
   }
+
+  /// Goes through the clusters in the order in which they were inserted.
+  class Iterator {
+   public:
+    using iterator_category = std::forward_iterator_tag;
+    using value_type = ClusterId;
+    using difference_type = std::ptrdiff_t;
+    using reference = ClusterId;
+    using pointer = const ClusterId*;
+    Iterator() = default;
+    Iterator(const PointClusterDictionary& dictionary, std::uint32_t at) : dictionary_(&dictionary), at_(at) {
+      skip();
+    }
+    ClusterId operator*() const { return {at_}; }
+    Iterator& operator++() {
+      ++at_;
+      skip();
+      return *this;
+    }
+    Iterator operator++(int) {
+      Iterator old = *this;
+      ++*this;
+      return old;
+    }
+    friend bool operator==(const Iterator& a, const Iterator& b) { return a.at_ == b.at_; }
+
+   private:
+    void skip() {
+      while (at_ < dictionary_->clusters_.size() && !dictionary_->clusters_[at_].alive) ++at_;
+    }
+    const PointClusterDictionary* dictionary_ = nullptr;
+    std::uint32_t at_ = 0;
+  };
+  [[nodiscard]] Iterator begin() const { return {*this, 0}; }
+  [[nodiscard]] Iterator end() const { return {*this, static_cast<std::uint32_t>(clusters_.size())}; }
 
   /// @pre the cluster is in the dictionary
   [[nodiscard]] const point_type& center(ClusterId cluster) const { return clusters_[cluster.index].center; }
@@ -116,12 +219,14 @@ class PointClusterDictionary {
   struct Cluster {
     Value value;
     point_type center;
+    std::uint32_t last_centre;
     bool alive;
   };
   struct Centre {
     point_type point;
     std::uint32_t cluster;
-    std::uint32_t next;  // in the same cell
+    std::uint32_t next;     // in the same cell
+    std::uint32_t sibling;  // of the same cluster
   };
 
   [[nodiscard]] Key key_of(const point_type& point) const {
@@ -144,6 +249,12 @@ class PointClusterDictionary {
     std::uint32_t& first = table_.entry(key_of(centres_[centre].point));
     centres_[centre].next = first;
     first = centre;
+  }
+
+  void unlink(std::uint32_t centre) {
+    std::uint32_t* next = &table_.entry(key_of(centres_[centre].point));
+    while (*next != centre && *next != none) next = &centres_[*next].next;
+    if (*next == centre) *next = centres_[centre].next;
   }
 
   template <class Visit>
@@ -186,6 +297,28 @@ template <class T, std::size_t D>
     const MergeResult merged = dictionary.insert_or_merge(point, own);
     result.push_back(merged.cluster.valid() ? dictionary.value(merged.cluster) : own);
   }
+  return result;
+}
+
+/// The same, but which points are merged does not depend on their order: the points are taken in
+/// lexicographic order. O(n log n).
+template <class T, std::size_t D>
+[[nodiscard]] std::vector<std::uint32_t> weld_in_any_order(const std::vector<Point<T, D>>& points,
+                                                           T merge_distance) {
+  std::vector<std::uint32_t> order(points.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+  PointClusterDictionary<T, D, std::uint32_t> dictionary(merge_distance);
+  // Points that are not accepted may be NaN, which has no order.
+  const auto refused = std::partition(order.begin(), order.end(),
+                                      [&](std::uint32_t i) { return dictionary.accepts(points[i]); });
+  std::sort(order.begin(), refused, [&](std::uint32_t a, std::uint32_t b) {
+    return points[a] != points[b] ? points[a] < points[b] : a < b;
+  });
+  std::vector<std::uint32_t> result(points.size());
+  for (auto i = order.begin(); i != refused; ++i) {
+    result[*i] = dictionary.value(dictionary.insert_or_merge(points[*i], *i).cluster);
+  }
+  for (auto i = refused; i != order.end(); ++i) result[*i] = *i;
   return result;
 }
 

@@ -26,9 +26,12 @@ class CellTable {
     }
   }
 
-  /// The number of a cell, to be changed; a new cell has `none`.
-  std::uint32_t& entry(const Key& key) {
+  /// Makes room for one more cell, so that the next entry() cannot fail.
+  void reserve_one() {
     if (2 * (used_ + 1) > entries_.size()) grow();
+  }
+  /// The number of a cell, to be changed; a new cell has `none`. @pre reserve_one(), for a new cell
+  std::uint32_t& entry(const Key& key) {
     Entry& found = place(key);
     if (!found.used) {
       found = {key, none, true};
@@ -63,9 +66,9 @@ class CellTable {
     return entries_[i];
   }
   void grow() {
-    std::vector<Entry> old = std::move(entries_);
-    const std::size_t size = old.empty() ? 16 : old.size() * 2;
-    entries_.assign(size, Entry{});
+    const std::size_t size = entries_.empty() ? 16 : entries_.size() * 2;
+    std::vector<Entry> old(size, Entry{});
+    old.swap(entries_);
     shift_ = 64;
     for (std::size_t s = size; s > 1; s /= 2) --shift_;
     for (const Entry& entry : old) {

@@ -106,8 +106,11 @@ class TreeCore {
   void move(std::uint32_t id, const BoxType& box) {
     const Slot where = slots_[id];
     LeafType& home = leaves_[where.leaf];
-    if (home.parent == LeafType::no_parent ||
-        (nodes_[home.parent].cell.holds(box) && nodes_[home.parent].side_of(box) == home.side)) {
+    const bool same_place =
+        home.parent == LeafType::no_parent ||
+        (nodes_[home.parent].cell.holds(box) && nodes_[home.parent].side_of(box) == home.side);
+    // A leaf over the soft limit may have become divisible when its tight box grows; making room finds out.
+    if (same_place && (home.count <= leaf_limit || encloses(link_box(home.parent, home.side), box))) {
       const BoxType old = home.box(where.position);
       home.set_box(where.position, box);
       const BoxType tight = link_box(home.parent, home.side);
@@ -416,7 +419,7 @@ class TreeCore {
         const std::uint32_t index = here.index();
         const LeafType& there = leaves_[index];
         if (there.count < leaf_limit || (there.indivisible && encloses(link_box(parent, side), box)) ||
-            !split_leaf(index)) {
+            !split_leaf(index, box)) {
           return append(index, box, id);
         }
         continue;
@@ -525,11 +528,14 @@ class TreeCore {
     return {0, inner.box.min[0]};  // not reached: the box is outside of the inner cell
   }
 
-  // Distributes a leaf's elements among three new leaves (§5.1, figure 7). False if no plane can.
-  bool split_leaf(std::uint32_t index) {
+  // Distributes a leaf's elements among three new leaves (§5.1, figure 7), so that `incoming` finds a place
+  // too. False if no plane can separate them.
+  bool split_leaf(std::uint32_t index, const BoxType& incoming) {
     const std::uint32_t parent = leaves_[index].parent;
     const std::uint32_t side = leaves_[index].side;
-    const BoxType tight = leaves_[index].bounds();
+    if (leaves_[index].loose > 0) tighten_leaf(index);
+    BoxType tight = link_box(parent, side);
+    extend(tight, incoming);
     Cell<T, D> cell = parent == none ? Cell<T, D>::cube_around(tight) : link_cell(parent, side);
     bool compressed = false;
     Split<T, D> at;
@@ -578,6 +584,10 @@ class TreeCore {
       if (leaves[s] == none) continue;
       attach_leaf(leaves[s], made, s);
       node.set_child_box(s, leaves_[leaves[s]].bounds());
+    }
+    // What is still over the limit was indivisible before `incoming` came, so this goes no deeper.
+    for (std::uint32_t s = 0; s < 3; ++s) {
+      if (counts[s] > leaf_limit) split_leaf(leaves[s], leaves_[leaves[s]].box(0));
     }
     return true;
   }
@@ -650,8 +660,11 @@ class TreeCore {
       any_loose_ = true;
       return;
     }
+    tighten_leaf(index);
+  }
+  void tighten_leaf(std::uint32_t index) {
+    LeafType& home = leaves_[index];
     home.loose = 0;
-    home.indivisible = false;
     set_link_box(home.parent, home.side, home.bounds());
     if (home.parent != none) tighten_up(nodes_[home.parent].parent, nodes_[home.parent].side);
   }
@@ -695,11 +708,10 @@ class TreeCore {
         set_link_box(parent, side, empty_box<T, D>());
         free_node(index);
         if (parent != none) tighten_up(nodes_[parent].parent, nodes_[parent].side);
-      } else if (children == 1 && (only != centric || node.child[only].is_leaf())) {
+      } else if (children == 1 && (only != centric || (node.child[only].is_leaf() && total <= leaf_limit))) {
         const ChildRef child = node.child[only];
         if (child.is_leaf()) {
           attach_leaf(child.index(), parent, side);
-          leaves_[child.index()].indivisible = false;
         } else {
           attach_node(child.index(), parent, side);
           nodes_[child.index()].compressed = true;
