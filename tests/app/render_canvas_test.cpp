@@ -129,6 +129,12 @@ TEST_CASE("lines: exact pixels, both directions, hidden by what is nearer") {
   CHECK(text(upright.image()) == ".#.\n.#.\n.#.\n.#.\n");
 }
 
+TEST_CASE("a line thinner than a sample is paler, not narrower") {
+  Canvas canvas(3, 2, white, 1);
+  canvas.draw_line({1.5, -3, 0}, {1.5, 5, 0}, 0.5, black);
+  CHECK(text(canvas.image()) == ".+.\n.+.\n");
+}
+
 TEST_CASE("dots are round") {
   Canvas canvas(7, 7, white, 1);
   canvas.draw_dot({3.5, 3.5, 0}, 4, black);

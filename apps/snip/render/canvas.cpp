@@ -153,6 +153,7 @@ void Canvas::fill_small_triangle(const std::array<ScreenPoint, 3>& corners, Colo
 void Canvas::draw_line(const ScreenPoint& from, const ScreenPoint& to, double width, Colour colour) {
   if (!finite(from) || !finite(to)) return;
   const double radius = width * static_cast<double>(samples_) / 2, reach = radius + 1;
+  const double densest = std::min(1.0, 2 * radius);  // a line thinner than a sample fades
   const auto w = static_cast<double>(width_), h = static_cast<double>(height_);
   std::vector<ScreenPoint> line{scaled(from, samples_), scaled(to, samples_)};
   // Away from the canvas a line costs time and shows nothing.
@@ -184,7 +185,7 @@ void Canvas::draw_line(const ScreenPoint& from, const ScreenPoint& to, double wi
       const std::size_t i = flat ? v * width_ + u : u * width_ + v;
       const double nearness = a.nearness + t * (b.nearness - a.nearness);
       if (coverage > 0 && static_cast<float>(nearness) >= nearness_[i])
-        mix(i, colour, std::min(coverage, 1.0));
+        mix(i, colour, std::min(coverage, densest));
     }
   }
 }

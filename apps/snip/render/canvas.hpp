@@ -24,7 +24,7 @@ class Canvas {
   /// Covers a sample when its middle is inside. A sample on the common edge of two triangles belongs to
   /// exactly one of them. opacity < 1 mixes with what is there and leaves its nearness.
   void fill_triangle(const std::array<ScreenPoint, 3>& corners, Colour colour, double opacity = 1);
-  /// A line with round ends, `width` pixels wide.
+  /// A line with round ends, `width` pixels wide; lines thinner than a sample are drawn paler instead.
   void draw_line(const ScreenPoint& from, const ScreenPoint& to, double width, Colour colour);
   /// A disc facing the viewer, in front of what is as near as its middle.
   void draw_dot(const ScreenPoint& middle, double diameter, Colour colour);

@@ -145,7 +145,8 @@ double pixels_per_edge(const SceneRun& run, const Camera& camera) {
 }
 
 Drawing scene_drawing(const SceneRun& run, double pixels_per_edge) {
-  const double width = std::clamp(pixels_per_edge / 15, 0.4, 2.0);
+  // In a fine cloth the lines would hide the cloth: they fade faster than the triangles shrink.
+  const double share = pixels_per_edge / 15, width = std::clamp(share < 1 ? share * share : share, 0.05, 2.0);
   Drawing drawing;
   add_surface(run, drawing);
   if (run.scene().output.show_physics) {
