@@ -136,6 +136,8 @@ void arrange_triangle(TriangleWork& work, const std::array<std::vector<LatticePo
     lattice::insert_edges(work.graph, std::move(new_edges));
     extend_node_data(work);
     cut_along_segments(work);
+    for (const GraphEdge& e : work.graph.edges)  // crossings are part of the cut, too
+      if (e.is_new) work.stamps[e.from] = work.stamps[e.to] = context.this_cut;
     merge_adjacent_edges(work, context);
   }
   work.changed = differs(work, !new_boundary_points.empty());

@@ -59,6 +59,8 @@ void clip_to_polygon(const Arrangement& arrangement, std::uint32_t polygon, Latt
       end = {d, LineEnd::On::node, e.to};
     else
       end = {lattice::crossing(a, b, c, d), LineEnd::On::cut_edge, i};
+    if (end.point == c) end = {c, LineEnd::On::node, e.from};
+    if (end.point == d) end = {d, LineEnd::On::node, e.to};
     crossings.push_back({s, end});
   }
   std::stable_sort(crossings.begin(), crossings.end(),

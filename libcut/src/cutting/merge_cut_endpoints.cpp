@@ -38,6 +38,13 @@ class EndpointMerger {
       : work_(work), context_(context), nodes_(polygon_nodes(work.before)) {}
 
   void merge(LineEnd& end, std::uint32_t polygon) const {
+    const LatticePoint detected = end.point;
+    decide(end, polygon);
+    end.detected = detected;
+  }
+
+ private:
+  void decide(LineEnd& end, std::uint32_t polygon) const {
     if (end.on == LineEnd::On::node) return;
     if (const std::size_t corner = corner_of(end.point); corner < 3) {
       end = {end.point, LineEnd::On::node, static_cast<std::uint32_t>(corner)};
@@ -50,7 +57,6 @@ class EndpointMerger {
     }
   }
 
- private:
   [[nodiscard]] LatticePoint point(std::uint32_t node) const { return work_.before.nodes[node].point; }
   [[nodiscard]] double reach(std::uint32_t node) const {
     return context_.recent(work_.before.nodes[node].stamp) ? context_.distances.cut : context_.distances.node;
@@ -158,32 +164,36 @@ void merge_free_endpoints(TriangleWork& work, const std::vector<LatticePoint>& b
   };
   using Clusters = spatial::PointClusterDictionary<double, 2, LatticePoint>;
   const auto point_of = [&](std::uint32_t n) { return work.before.nodes[n].point; };
-  std::vector<std::pair<std::pair<std::uint32_t, LatticePoint>, LatticePoint>> moved;
+  const auto nearest_visible = [&](const Clusters& clusters, LatticePoint p) -> std::optional<LatticePoint> {
+    const auto nearest = clusters.find_nearest(flat(p));
+    if (!nearest.valid() || !visible(p, clusters.value(nearest), work.before.edges, point_of))
+      return std::nullopt;
+    return clusters.value(nearest);
+  };
   for (std::size_t i = 0; i < open.size();) {
     const std::uint32_t polygon = open[i].first;
     Clusters clusters(context.distances.node);
     for (const LatticePoint p : boundary_points) clusters.insert_or_merge(flat(p), p);
     for (; i < open.size() && open[i].first == polygon; ++i) {
       const LatticePoint p = open[i].second.point;
-      if (!moved.empty() && moved.back().first == std::pair{polygon, p}) continue;
-      const auto nearest = clusters.find_nearest(flat(p));
-      LatticePoint target = p;
-      if (nearest.valid() && visible(p, clusters.value(nearest), work.before.edges, point_of))
-        target = clusters.value(nearest);
-      else
-        clusters.insert_or_merge(flat(p), p);
-      moved.push_back({{polygon, p}, target});
+      if (!nearest_visible(clusters, p)) clusters.insert_or_merge(flat(p), p);
     }
+    // Now that all new nodes are known, each end goes to the nearest: the same cut, made again, finds the
+    // same nodes.
+    for (CuttingLine& line : work.lines)
+      for (LineEnd* end : {&line.a, &line.b}) {
+        if (line.polygon != polygon) continue;
+        if (is_open(*end)) {
+          end->point = nearest_visible(clusters, end->point).value_or(end->point);
+        } else if (end->on == LineEnd::On::node && end->detected != end->point &&
+                   !context.recent(work.before.nodes[end->index].stamp)) {
+          const auto nearer = nearest_visible(clusters, end->detected);
+          if (nearer &&
+              work.metric.length(end->detected, *nearer) < work.metric.length(end->detected, end->point))
+            *end = {*nearer, LineEnd::On::nothing, 0, end->detected};
+        }
+      }
   }
-  std::sort(moved.begin(), moved.end());
-  for (CuttingLine& line : work.lines)
-    for (LineEnd* end : {&line.a, &line.b}) {
-      if (!is_open(*end)) continue;
-      const auto found =
-          std::lower_bound(moved.begin(), moved.end(), std::pair{line.polygon, end->point},
-                           [](const auto& entry, const auto& key) { return entry.first < key; });
-      end->point = found->second;
-    }
 }
 
 }  // namespace cut

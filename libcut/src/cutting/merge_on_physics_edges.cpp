@@ -36,10 +36,10 @@ std::vector<Target> targets_of(const HybridMesh& mesh, AncestorEdgeId edge, cons
   return targets;
 }
 
-/// The nearest recent node within δc, else the nearest node within δn. `unit` is the length of one lattice
-/// unit.
-bool merge_to_existing(EdgePoint& point, const std::vector<Target>& targets, double unit,
-                       const CutContext& context) {
+/// Sends a point to the nearest recent node within δc, else to the nearest within δn. `unit` is the length of
+/// a lattice unit.
+bool merge_to_node(EdgePoint& point, const std::vector<Target>& targets, double unit,
+                   const CutContext& context) {
   const Target* best = nullptr;
   for (const Target& target : targets) {
     const std::int32_t distance = std::abs(target.t - point.t);
@@ -59,10 +59,10 @@ bool merge_to_existing(EdgePoint& point, const std::vector<Target>& targets, dou
 bool settle(HybridMesh& mesh, EdgePoint* begin, EdgePoint* end, const CutContext& context) {
   const AncestorEdgeId edge = begin->edge;
   const double unit = mesh.ancestors.rest_length(edge) / lattice_size;
-  const std::vector<Target> targets = targets_of(mesh, edge, context);
+  std::vector<Target> targets = targets_of(mesh, edge, context);
   std::vector<EdgePoint*> fresh;
   for (EdgePoint* p = begin; p != end; ++p)
-    if (!merge_to_existing(*p, targets, unit, context)) fresh.push_back(p);
+    if (!merge_to_node(*p, targets, unit, context)) fresh.push_back(p);
   for (std::size_t i = 0; i < fresh.size();) {
     std::size_t last = i;
     while (last + 1 < fresh.size() && unit * (fresh[last + 1]->t - fresh[i]->t) <= context.distances.node)
@@ -73,9 +73,11 @@ bool settle(HybridMesh& mesh, EdgePoint* begin, EdgePoint* end, const CutContext
                                                 [&](const EdgePoint* a, const EdgePoint* b) {
                                                   return std::abs(a->t - middle) < std::abs(b->t - middle);
                                                 });
-    for (; i <= last; ++i) fresh[i]->merged = centre->t;
+    i = last + 1;
     insert_boundary_node(edge_state_for_writing(mesh, edge), centre->t, context.this_cut);
+    targets.push_back({centre->t, false});
   }
+  for (EdgePoint* p = begin; p != end; ++p) merge_to_node(*p, targets, unit, context);
   return !fresh.empty();
 }
 

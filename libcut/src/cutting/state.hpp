@@ -33,6 +33,7 @@ struct LineEnd {
   LatticePoint point;
   On on = On::nothing;
   std::uint32_t index = 0;
+  LatticePoint detected{};  ///< where it was before it was merged; set by merge_cut_endpoints
 
   auto operator<=>(const LineEnd&) const = default;
 };
