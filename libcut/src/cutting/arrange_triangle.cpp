@@ -82,9 +82,12 @@ void extend_node_data(TriangleWork& work) {
   work.rendered.resize(work.graph.points.size(), 0);
 }
 
-/// Whether the graph is another one than before.
-bool differs(const TriangleWork& work, bool has_new_boundary_nodes) {
-  if (has_new_boundary_nodes || work.graph.edges.size() != work.before.edges.size()) return true;
+}  // namespace
+
+bool differs_from_before(const TriangleWork& work) {
+  if (work.boundary_counts != work.before.boundary_counts ||
+      work.graph.edges.size() != work.before.edges.size())
+    return true;
   using Ends = std::pair<LatticePoint, LatticePoint>;
   std::vector<Ends> now;
   std::vector<Ends> then;
@@ -96,8 +99,6 @@ bool differs(const TriangleWork& work, bool has_new_boundary_nodes) {
   std::sort(then.begin(), then.end());
   return now != then;
 }
-
-}  // namespace
 
 void arrange_triangle(TriangleWork& work, const std::array<std::vector<LatticePoint>, 3>& boundary,
                       const CutContext& context) {
@@ -140,7 +141,7 @@ void arrange_triangle(TriangleWork& work, const std::array<std::vector<LatticePo
       if (e.is_new) work.stamps[e.from] = work.stamps[e.to] = context.this_cut;
     merge_adjacent_edges(work, context);
   }
-  work.changed = differs(work, !new_boundary_points.empty());
+  work.changed = differs_from_before(work);
 }
 
 }  // namespace cut

@@ -15,4 +15,7 @@ namespace cut {
 void arrange_triangle(TriangleWork& work, const std::array<std::vector<LatticePoint>, 3>& boundary,
                       const CutContext& context);
 
+/// Whether the work's graph is another one than `before`.
+bool differs_from_before(const TriangleWork& work);
+
 }  // namespace cut

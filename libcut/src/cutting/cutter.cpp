@@ -21,6 +21,7 @@
 #include "cutting/merge_on_physics_edges.hpp"
 #include "cutting/state.hpp"
 #include "cutting/triangulate_polygons.hpp"
+#include "cutting/weld_slivers.hpp"
 
 namespace cut {
 
@@ -28,6 +29,7 @@ struct Cutter::Memory {
   MergeDistances distances;
   BroadPhase broad_phase;
   std::uint32_t previous_cut = 0;
+  ClusterCentres centres;
   StepTimings timings;
 };
 
@@ -87,6 +89,14 @@ void keep_stamps(HybridMesh& mesh, const TriangleWork& work, const CutContext& c
     if (work.stamps[k] == context.this_cut) stored.nodes[k].stamp = context.this_cut;
 }
 
+/// Notes where the ends of a work's lines that were not on a side were detected, and where they went.
+void remember_centres(const TriangleWork& work, ClusterCentres& centres) {
+  for (const CuttingLine& line : work.lines)
+    for (const LineEnd& end : {line.a, line.b})
+      if (end.on != LineEnd::On::physics_edge && end.detected != end.point)
+        centres.inside.push_back({work.ancestor, end.detected, end.point});
+}
+
 }  // namespace
 
 Cutter::Cutter(const MergeDistances& distances) : memory_(std::make_unique<Memory>()) {
@@ -108,7 +118,7 @@ Result<Changes> Cutter::cut(HybridMesh& mesh, const TriangleMesh& cutter) {
   if (!memory_->broad_phase.update(mesh, error)) return error;
   watch.lap(timings.broad_phase);
 
-  const CutContext context{memory_->distances, mesh.cut_count + 1, memory_->previous_cut};
+  const CutContext context{memory_->distances, memory_->centres, mesh.cut_count + 1, memory_->previous_cut};
   const double slack = contact_slack(context.distances, cutter);
   std::vector<TriangleWork> works =
       detect_cutting_lines(mesh, cutter, memory_->broad_phase.candidates(cutter, slack), slack);
@@ -118,26 +128,38 @@ Result<Changes> Cutter::cut(HybridMesh& mesh, const TriangleMesh& cutter) {
   memory_->previous_cut = context.this_cut;
   Changes nothing;
   nothing.version_before = nothing.version_after = mesh.topology_version;
-  if (works.empty()) return nothing;
+  if (works.empty()) {
+    memory_->centres = {};
+    return nothing;
+  }
 
   for (TriangleWork& work : works) merge_cut_endpoints(work, context);
-  merge_on_physics_edges(mesh, works, context);
+  ClusterCentres next_centres;
+  merge_on_physics_edges(mesh, works, context, next_centres);
   watch.lap(timings.merge_endpoints);
 
+  std::vector<DisjointPolygons> polygons;  // per work
   for (TriangleWork& work : works) {
     std::array<std::vector<LatticePoint>, 3> boundary;
     for (std::size_t i = 0; i < 3; ++i) boundary[i] = boundary_points(mesh, work.ancestor, i);
     arrange_triangle(work, boundary, context);
+    // A work whose only change is a cut along one of its sides needs its polygons, too.
+    polygons.push_back(weld_slivers(mesh, work, context));
+    remember_centres(work, next_centres);
   }
+  std::sort(next_centres.on_edges.begin(), next_centres.on_edges.end());
+  std::sort(next_centres.inside.begin(), next_centres.inside.end());
+  memory_->centres = std::move(next_centres);
   ChangeLog log;
   std::vector<AncestorNodeId> touched;  // physics nodes whose copies may have come apart
-  for (TriangleWork& work : works) {
+  for (std::size_t i = 0; i < works.size(); ++i) {
+    TriangleWork& work = works[i];
     for (const AncestorEdgeId e : cut_edge_sections(mesh, work)) {
       work.changed = true;
       for (const AncestorNodeId n : mesh.ancestors.edges[e.index()].nodes) touched.push_back(n);
     }
     keep_stamps(mesh, work, context);
-    if (work.changed && copy_physics_triangles(mesh, work, detect_disjoint_polygons(work), log))
+    if (work.changed && copy_physics_triangles(mesh, work, std::move(polygons[i]), log))
       for (const AncestorNodeId n : mesh.ancestors.triangles[work.ancestor.index()].nodes)
         touched.push_back(n);
   }

@@ -1,7 +1,7 @@
 #include "cutting/detect_disjoint_polygons.hpp"
 
 #include <algorithm>
-#include <tuple>
+#include <numeric>
 #include <utility>
 
 #include "cutting/work_graph.hpp"
@@ -13,8 +13,9 @@ namespace {
 using lattice::GraphEdge;
 using Index = std::uint32_t;
 
-/// Nodes and edges in their final order; edges still carry the old polygons.
-Arrangement canonical(const TriangleWork& work) {
+/// Nodes and edges in their final order; edges still carry the old polygons. `graph_edge` tells where each
+/// came from.
+Arrangement canonical(const TriangleWork& work, std::vector<Index>& graph_edge) {
   Arrangement result;
   result.boundary_counts = work.boundary_counts;
   const auto& points = work.graph.points;
@@ -31,7 +32,14 @@ Arrangement canonical(const TriangleWork& work) {
     renumbered[n] = static_cast<Index>(result.nodes.size());
     result.nodes.push_back({points[n], work.stamps[n], work.rendered[n] != 0});
   }
-  for (const GraphEdge& e : work.graph.edges) {
+  const auto ends = [&](Index i) {
+    return std::minmax(renumbered[work.graph.edges[i].from], renumbered[work.graph.edges[i].to]);
+  };
+  graph_edge.resize(work.graph.edges.size());
+  std::iota(graph_edge.begin(), graph_edge.end(), Index{0});
+  std::sort(graph_edge.begin(), graph_edge.end(), [&](Index a, Index b) { return ends(a) < ends(b); });
+  for (const Index i : graph_edge) {
+    const GraphEdge& e = work.graph.edges[i];
     CutEdge edge{renumbered[e.from], renumbered[e.to], e.left, e.right, e.deviation};
     if (edge.to < edge.from) {
       std::swap(edge.from, edge.to);
@@ -39,9 +47,6 @@ Arrangement canonical(const TriangleWork& work) {
     }
     result.edges.push_back(edge);
   }
-  std::sort(result.edges.begin(), result.edges.end(), [](const CutEdge& a, const CutEdge& b) {
-    return std::tie(a.from, a.to) < std::tie(b.from, b.to);
-  });
   return result;
 }
 
@@ -64,7 +69,7 @@ std::int64_t doubled_area(const Arrangement& arrangement, const RenderPolygon& p
 DisjointPolygons detect_disjoint_polygons(const TriangleWork& work) {
   DisjointPolygons result;
   Arrangement& arrangement = result.arrangement;
-  arrangement = canonical(work);
+  arrangement = canonical(work, result.graph_edge);
 
   std::vector<LatticePoint> points;
   for (const ArrangementNode& n : arrangement.nodes) points.push_back(n.point);

@@ -15,6 +15,7 @@ struct DisjointPolygons {
   /// Complete but for physics triangles, render vertices and render triangles.
   Arrangement arrangement;
   std::vector<std::uint32_t> parent;       ///< per polygon: the polygon of `before` that it was part of
+  std::vector<std::uint32_t> graph_edge;   ///< per edge of the arrangement: its index in the work's graph
   std::vector<std::int64_t> doubled_area;  ///< per polygon, in lattice units
 };
 

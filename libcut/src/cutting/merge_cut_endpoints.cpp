@@ -67,16 +67,24 @@ class EndpointMerger {
     std::optional<std::uint32_t> best;
     bool best_recent = false;
     double best_distance = 0;
-    for (const std::uint32_t n : nodes_.of(polygon)) {
-      const double distance = work_.metric.length(p, point(n));
-      if (distance > reach(n)) continue;
-      const bool recent = context_.recent(work_.before.nodes[n].stamp);
-      if (best && (best_recent > recent || (best_recent == recent && best_distance <= distance))) continue;
-      if (!visible(p, point(n), work_.before.edges, [&](std::uint32_t i) { return point(i); })) continue;
+    const auto consider = [&](std::uint32_t n, LatticePoint from, bool recent) {
+      const double distance = work_.metric.length(p, from);
+      if (distance > (recent ? context_.distances.cut : context_.distances.node)) return;
+      if (best && (best_recent > recent || (best_recent == recent && best_distance <= distance))) return;
+      if (!visible(p, point(n), work_.before.edges, [&](std::uint32_t i) { return point(i); })) return;
       best = n;
       best_recent = recent;
       best_distance = distance;
-    }
+    };
+    for (const std::uint32_t n : nodes_.of(polygon))
+      consider(n, point(n), context_.recent(work_.before.nodes[n].stamp));
+    const auto& centres = context_.centres.inside;
+    for (auto c =
+             std::lower_bound(centres.begin(), centres.end(), ClusterCentres::Inside{work_.ancestor, {}, {}},
+                              [](const auto& l, const auto& r) { return l.ancestor < r.ancestor; });
+         c != centres.end() && c->ancestor == work_.ancestor; ++c)
+      for (const std::uint32_t n : nodes_.of(polygon))
+        if (point(n) == c->node) consider(n, c->detected, true);
     return best;
   }
 

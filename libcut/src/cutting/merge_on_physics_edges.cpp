@@ -21,18 +21,24 @@ std::int32_t along_edge(const AncestorMesh& ancestors, AncestorId triangle, std:
   return ancestors.reversed(triangle, i) ? lattice_size - t : t;
 }
 
-/// A node of the edge that points may go to.
+/// A place from which a node of the edge attracts points.
 struct Target {
   std::int32_t t;
   bool recent;
+  std::int32_t node;  ///< where that node is
 };
 
 std::vector<Target> targets_of(const HybridMesh& mesh, AncestorEdgeId edge, const CutContext& context) {
   const auto& ends = mesh.ancestors.edges[edge.index()].nodes;
-  std::vector<Target> targets{{0, context.recent(mesh.node_stamps[ends[0].index()])},
-                              {lattice_size, context.recent(mesh.node_stamps[ends[1].index()])}};
+  std::vector<Target> targets{
+      {0, context.recent(mesh.node_stamps[ends[0].index()]), 0},
+      {lattice_size, context.recent(mesh.node_stamps[ends[1].index()]), lattice_size}};
   if (const EdgeState* state = mesh.edge_state(edge))
-    for (const BoundaryNode& n : state->nodes) targets.push_back({n.t, context.recent(n.stamp)});
+    for (const BoundaryNode& n : state->nodes) targets.push_back({n.t, context.recent(n.stamp), n.t});
+  const auto& centres = context.centres.on_edges;
+  for (auto c = std::lower_bound(centres.begin(), centres.end(), ClusterCentres::OnEdge{edge, 0, 0});
+       c != centres.end() && c->edge == edge; ++c)
+    targets.push_back({c->detected, true, c->node});
   return targets;
 }
 
@@ -50,7 +56,7 @@ bool merge_to_node(EdgePoint& point, const std::vector<Target>& targets, double 
     best = &target;
   }
   if (best == nullptr) return false;
-  point.merged = best->t;
+  point.merged = best->node;
   return true;
 }
 
@@ -75,7 +81,7 @@ bool settle(HybridMesh& mesh, EdgePoint* begin, EdgePoint* end, const CutContext
                                                 });
     i = last + 1;
     insert_boundary_node(edge_state_for_writing(mesh, edge), centre->t, context.this_cut);
-    targets.push_back({centre->t, false});
+    targets.push_back({centre->t, false, centre->t});
   }
   for (EdgePoint* p = begin; p != end; ++p) merge_to_node(*p, targets, unit, context);
   return !fresh.empty();
@@ -84,7 +90,7 @@ bool settle(HybridMesh& mesh, EdgePoint* begin, EdgePoint* end, const CutContext
 }  // namespace
 
 std::vector<AncestorEdgeId> merge_on_physics_edges(HybridMesh& mesh, std::vector<TriangleWork>& works,
-                                                   const CutContext& context) {
+                                                   const CutContext& context, ClusterCentres& next_centres) {
   const AncestorMesh& ancestors = mesh.ancestors;
   const auto edge_point = [&](const TriangleWork& work, const LineEnd& end) {
     const std::size_t i = edge_of(end.point);
@@ -115,7 +121,10 @@ std::vector<AncestorEdgeId> merge_on_physics_edges(HybridMesh& mesh, std::vector
   }
   // Only now: a stamp set earlier would hide from the next edge that their common node was part of the
   // previous cut.
-  for (const EdgePoint& p : points) stamp_edge_node(mesh, p.edge, p.merged, context.this_cut);
+  for (const EdgePoint& p : points) {
+    stamp_edge_node(mesh, p.edge, p.merged, context.this_cut);
+    if (p.t != p.merged) next_centres.on_edges.push_back({p.edge, p.t, p.merged});
+  }
 
   for (TriangleWork& work : works)
     for (CuttingLine& line : work.lines)

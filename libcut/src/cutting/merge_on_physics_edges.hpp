@@ -14,8 +14,9 @@ namespace cut {
 /// Moves each end on a physics edge to a node of the edge: one of the previous cut within δc, else any within
 /// δn, else a new boundary node for all points within δn. Adds works for neighbours whose edge has a new
 /// boundary node.
+/// @param next_centres gets what the next cut is to remember of the points on edges
 /// @return the edges with new boundary nodes, sorted. O(ends · log), and the nodes of each edge.
 std::vector<AncestorEdgeId> merge_on_physics_edges(HybridMesh& mesh, std::vector<TriangleWork>& works,
-                                                   const CutContext& context);
+                                                   const CutContext& context, ClusterCentres& next_centres);
 
 }  // namespace cut

@@ -65,9 +65,30 @@ struct TriangleWork {
   bool changed = false;                                     ///< nodes or edges differ from `before`
 };
 
+/// Where a line end of the previous cut was detected, and the node that it went to: one more place from which
+/// this node attracts line ends (§7, "additional cluster center"). The same cut, made again, finds the same
+/// nodes; and a blade finds the end of its cut again when merging has moved it.
+struct ClusterCentres {
+  struct OnEdge {
+    AncestorEdgeId edge;
+    std::int32_t detected;
+    std::int32_t node;
+    auto operator<=>(const OnEdge&) const = default;
+  };
+  struct Inside {
+    AncestorId ancestor;
+    LatticePoint detected;
+    LatticePoint node;
+    auto operator<=>(const Inside&) const = default;
+  };
+  std::vector<OnEdge> on_edges;  ///< sorted
+  std::vector<Inside> inside;    ///< sorted
+};
+
 /// What all steps need to know of this call.
 struct CutContext {
   const MergeDistances& distances;
+  const ClusterCentres& centres;
   std::uint32_t this_cut;      ///< number of this call, for stamps
   std::uint32_t previous_cut;  ///< number of the cutter's previous call; 0: none
 
