@@ -3,6 +3,7 @@
 // spring constants. Masses and constants of all copies of a node or an edge are summed up anew from the
 // weights around it, in a fixed order: nothing drifts however often a place is cut.
 #include <algorithm>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -91,11 +92,11 @@ void Simulation::update_copies(const HybridMesh& mesh, AncestorNodeId node) {
   };
   const bool conserving = material_.mode == MaterialMode::conserving;
   std::vector<Share> shares;
-  double whole = 0;
+  std::vector<double> thirds;
   for (const AncestorId t : mesh.ancestors.triangles_around(node)) {
     const std::size_t i = mesh.ancestors.local_node(t, node);
     const double third = material_.density * rest_area(mesh.ancestors, t) / 3;
-    whole += third;
+    thirds.push_back(third);
     for (std::size_t p = 0; p < mesh.fragment_count(t); ++p) {
       const TriangleId fragment = mesh.fragment(t, p);
       const NodeId copy = mesh.buffers.triangles[fragment.index()].nodes[i];
@@ -103,8 +104,12 @@ void Simulation::update_copies(const HybridMesh& mesh, AncestorNodeId node) {
                         anchored(copy) && renders_corner(mesh.arrangement(t), p, i)});
     }
   }
-  std::stable_sort(shares.begin(), shares.end(),
-                   [](const Share& a, const Share& b) { return a.copy < b.copy; });
+  // Sums run by size: they do not depend on how triangles are numbered.
+  std::sort(thirds.begin(), thirds.end());
+  const double whole = std::accumulate(thirds.begin(), thirds.end(), 0.0);
+  std::sort(shares.begin(), shares.end(), [](const Share& a, const Share& b) {
+    return std::pair(a.copy, a.mass) < std::pair(b.copy, b.mass);
+  });
   for (auto share = shares.begin(); share != shares.end();) {
     Share sum = *share;
     while (++share != shares.end() && share->copy == sum.copy) {
@@ -133,8 +138,7 @@ void Simulation::update_springs(const HybridMesh& mesh, AncestorEdgeId edge) {
       shares.push_back({{nodes[from], nodes[to]}, side * std::min(weights[from], weights[to])});
     }
   }
-  std::stable_sort(shares.begin(), shares.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::sort(shares.begin(), shares.end());
   const auto set = [&](SpringId spring) {
     const auto& nodes = mesh.buffers.springs[spring.index()].nodes;
     auto share = std::lower_bound(shares.begin(), shares.end(), nodes,
