@@ -8,6 +8,7 @@
 #include "cutting/merge_adjacent_edges.hpp"
 #include "cutting/merge_cut_endpoints.hpp"
 #include "cutting/merge_existing_nodes.hpp"
+#include "cutting/merge_on_cut_edges.hpp"
 #include "cutting/polygon_nodes.hpp"
 #include "cutting/work_graph.hpp"
 
@@ -104,11 +105,12 @@ void arrange_triangle(TriangleWork& work, const std::array<std::vector<LatticePo
                       const CutContext& context) {
   const std::vector<LatticePoint> new_boundary_points = lay_out(work, boundary);
   if (!work.lines.empty()) {
+    merge_on_cut_edges(work, context);
     merge_free_endpoints(work, new_boundary_points, context);
     std::sort(work.lines.begin(), work.lines.end(), [](const CuttingLine& l, const CuttingLine& r) {
       return std::tie(l.polygon, l.a.point, l.b.point) < std::tie(r.polygon, r.a.point, r.b.point);
     });
-    // Line ends become nodes (§4.5); those on a cut divide it.
+    // Line ends become nodes (§4.5).
     std::vector<std::array<Index, 3>> segments;
     for (const CuttingLine& line : work.lines) {
       const Index a = lattice::insert_node(work.graph, line.a.point);

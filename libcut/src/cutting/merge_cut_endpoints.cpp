@@ -50,11 +50,23 @@ class EndpointMerger {
       end = {end.point, LineEnd::On::node, static_cast<std::uint32_t>(corner)};
     } else if (edge_of(end.point) < 3) {
       end = {end.point, LineEnd::On::physics_edge, 0};
+    } else if (end.on == LineEnd::On::cut_edge) {
+      merge_along_cut_edge(end);
     } else if (const auto node = nearest_node(end.point, polygon)) {
       end = {point(*node), LineEnd::On::node, *node};
-    } else if (end.on == LineEnd::On::nothing) {
+    } else {
       merge_to_edge(end, polygon);
     }
+  }
+
+  /// An end on a cut goes to the ends of that edge only: the line on the other side of the cut must decide
+  /// the same.
+  void merge_along_cut_edge(LineEnd& end) const {
+    const CutEdge& e = work_.before.edges[end.index];
+    const double to_from = work_.metric.length(end.point, point(e.from));
+    const double to_to = work_.metric.length(end.point, point(e.to));
+    const std::uint32_t nearer = to_from <= to_to ? e.from : e.to;
+    if (std::min(to_from, to_to) <= reach(nearer)) end = {point(nearer), LineEnd::On::node, nearer};
   }
 
   [[nodiscard]] LatticePoint point(std::uint32_t node) const { return work_.before.nodes[node].point; }
@@ -113,19 +125,12 @@ class EndpointMerger {
       const auto d = work_.metric.distance_to_segment(p, a, b);
       if (d.squared >= best) continue;
       best = d.squared;
-      end = on_cut_edge(i, a, b, d.parameter);
+      end = {{round_to_lattice(a.x + d.parameter * (b.x - a.x)),
+              round_to_lattice(a.y + d.parameter * (b.y - a.y))},
+             LineEnd::On::cut_edge,
+             i};
     }
-  }
-
-  /// The point of cut edge i at this parameter, or the edge's end when that is within reach of it.
-  [[nodiscard]] LineEnd on_cut_edge(std::uint32_t i, LatticePoint a, LatticePoint b, double parameter) const {
-    const CutEdge& e = work_.before.edges[i];
-    const LatticePoint foot{round_to_lattice(a.x + parameter * (b.x - a.x)),
-                            round_to_lattice(a.y + parameter * (b.y - a.y))};
-    const std::uint32_t nearer = parameter < 0.5 ? e.from : e.to;
-    if (work_.metric.length(foot, point(nearer)) <= reach(nearer))
-      return {point(nearer), LineEnd::On::node, nearer};
-    return {foot, LineEnd::On::cut_edge, i};
+    if (end.on == LineEnd::On::cut_edge) merge_along_cut_edge(end);
   }
 
   const TriangleWork& work_;
@@ -146,19 +151,14 @@ void merge_cut_endpoints(TriangleWork& work, const CutContext& context) {
 
 void merge_free_endpoints(TriangleWork& work, const std::vector<LatticePoint>& boundary_points,
                           const CutContext& context) {
-  const auto is_open = [](const LineEnd& e) {
-    return e.on == LineEnd::On::nothing || e.on == LineEnd::On::cut_edge;
-  };
+  const auto is_open = [](const LineEnd& e) { return e.on == LineEnd::On::nothing; };
   std::vector<std::pair<std::uint32_t, LineEnd>> open;
   for (const CuttingLine& line : work.lines)
     for (const LineEnd& end : {line.a, line.b})
       if (is_open(end)) open.emplace_back(line.polygon, end);
   if (open.empty()) return;
-  // Points on cuts first: a free end may go to a cut, not the other way round.
   std::sort(open.begin(), open.end(), [](const auto& l, const auto& r) {
-    const bool l_free = l.second.on == LineEnd::On::nothing;
-    const bool r_free = r.second.on == LineEnd::On::nothing;
-    return std::tie(l.first, l_free, l.second.point) < std::tie(r.first, r_free, r.second.point);
+    return std::tie(l.first, l.second.point) < std::tie(r.first, r.second.point);
   });
   // The tension-free triangle laid into a plane, for the dictionary.
   const auto side = [&](LatticePoint p) { return p - LatticePoint{0, 0}; };
@@ -182,6 +182,10 @@ void merge_free_endpoints(TriangleWork& work, const std::vector<LatticePoint>& b
     const std::uint32_t polygon = open[i].first;
     Clusters clusters(context.distances.node);
     for (const LatticePoint p : boundary_points) clusters.insert_or_merge(flat(p), p);
+    for (const CuttingLine& line : work.lines)
+      for (const LineEnd& end : {line.a, line.b})
+        if (line.polygon == polygon && end.on == LineEnd::On::cut_edge)
+          clusters.insert_or_merge(flat(end.point), end.point);
     for (; i < open.size() && open[i].first == polygon; ++i) {
       const LatticePoint p = open[i].second.point;
       if (!nearest_visible(clusters, p)) clusters.insert_or_merge(flat(p), p);
