@@ -1,6 +1,6 @@
 /// @file
-/// A mesh that is cut again and again, with every check after each cut: `validate`, and the change set applied to a copy of
-/// the old buffers.
+/// A mesh that is cut again and again, with every check after each cut: `validate`, and the change set
+/// applied to a copy of the old buffers.
 #pragma once
 #include <doctest/doctest.h>
 

@@ -1,5 +1,6 @@
 /// @file
-/// Random cut sequences on random cloths, decoded from a stream of bytes: one body for the property test and the fuzz target.
+/// Random cut sequences on random cloths, decoded from a stream of bytes: one body for the property test and
+/// the fuzz target.
 #pragma once
 #include <Eigen/Core>
 #include <cstddef>
@@ -25,11 +26,12 @@ class Bytes {
   std::uint8_t byte() { return at_ < size_ ? data_[at_++] : std::uint8_t{0}; }
   /// One of `count` values.
   unsigned choice(unsigned count) { return byte() % count; }
-  /// A number in [low, high]: of 16 coarse steps half of the time (so that cuts meet nodes, edges and each other exactly), else
-  /// of 65536 fine ones.
+  /// A number in [low, high]: of 16 coarse steps half of the time (so that cuts meet nodes, edges and each
+  /// other exactly), else of 65536 fine ones.
   double number(double low, double high) {
     const unsigned first = byte();
-    const double part = (first & 1u) != 0 ? (first >> 1u) % 17 / 16.0 : ((first >> 1u) * 256u + byte()) / 32767.0;
+    const double part =
+        (first & 1u) != 0 ? (first >> 1u) % 17 / 16.0 : ((first >> 1u) * 256u + byte()) / 32767.0;
     return low + (high - low) * part;
   }
 
@@ -48,15 +50,33 @@ struct Cloth {
 inline Cloth cloth(Bytes& bytes) {
   Cloth result;
   switch (bytes.choice(9)) {
-    case 0: result.mesh = scenes::twelve_triangles(); break;
-    case 1: result.mesh = scenes::grid(3, 3, 1.0); break;
-    case 2: result.mesh = scenes::grid(1, 1, 1.0); break;
-    case 3: result.mesh = scenes::random_sheet(4, 4, 1.0, bytes.byte()); break;
-    case 4: result.mesh = scenes::sphere(1); break;
-    case 5: result.mesh = scenes::torus(6, 4); break;
-    case 6: result.mesh = scenes::cylinder(6, 3); break;
-    case 7: result.mesh = scenes::moebius_strip(8, 2); break;
-    default: result.mesh = scenes::fan(7); break;
+    case 0:
+      result.mesh = scenes::twelve_triangles();
+      break;
+    case 1:
+      result.mesh = scenes::grid(3, 3, 1.0);
+      break;
+    case 2:
+      result.mesh = scenes::grid(1, 1, 1.0);
+      break;
+    case 3:
+      result.mesh = scenes::random_sheet(4, 4, 1.0, bytes.byte());
+      break;
+    case 4:
+      result.mesh = scenes::sphere(1);
+      break;
+    case 5:
+      result.mesh = scenes::torus(6, 4);
+      break;
+    case 6:
+      result.mesh = scenes::cylinder(6, 3);
+      break;
+    case 7:
+      result.mesh = scenes::moebius_strip(8, 2);
+      break;
+    default:
+      result.mesh = scenes::fan(7);
+      break;
   }
   result.low = result.high = result.mesh.positions[0];
   for (const auto& p : result.mesh.positions) {
@@ -74,7 +94,8 @@ inline Eigen::Vector3d point(Bytes& bytes, const Cloth& cloth) {
   return p;
 }
 
-/// A cutter of a few triangles: a wall along a random path, a star through a point, a tube, a swept edge, or any triangles.
+/// A cutter of a few triangles: a wall along a random path, a star through a point, a tube, a swept edge, or
+/// any triangles.
 inline cut::TriangleMesh cutter(Bytes& bytes, const Cloth& cloth) {
   const Eigen::Vector3d deep = Eigen::Vector3d::UnitZ() * (2 * (cloth.high - cloth.low).maxCoeff() + 2);
   const auto base = [&] {
@@ -83,7 +104,8 @@ inline cut::TriangleMesh cutter(Bytes& bytes, const Cloth& cloth) {
     return p;
   };
   switch (bytes.choice(6)) {
-    case 0: return scenes::ribbon({base(), base()}, deep);
+    case 0:
+      return scenes::ribbon({base(), base()}, deep);
     case 1: {
       scenes::Path path;
       const unsigned count = 2 + bytes.choice(5);
@@ -105,12 +127,15 @@ inline cut::TriangleMesh cutter(Bytes& bytes, const Cloth& cloth) {
       const unsigned count = 2 + bytes.choice(4);
       for (unsigned i = 0; i < count; ++i) {
         const double angle = i * 0.6;
-        const Eigen::Vector3d d{arm.x() * (1 - angle) - arm.y() * angle, arm.x() * angle + arm.y() * (1 - angle), 0};
+        const Eigen::Vector3d d{arm.x() * (1 - angle) - arm.y() * angle,
+                                arm.x() * angle + arm.y() * (1 - angle), 0};
         arms.push_back(scenes::ribbon({centre - d, centre + d}, deep));
       }
       return scenes::joined(arms);
     }
-    case 4: return scenes::swept({point(bytes, cloth), point(bytes, cloth)}, {point(bytes, cloth), point(bytes, cloth)});
+    case 4:
+      return scenes::swept({point(bytes, cloth), point(bytes, cloth)},
+                           {point(bytes, cloth), point(bytes, cloth)});
     default: {
       cut::TriangleMesh mesh;
       const unsigned count = 1 + bytes.choice(4);
@@ -124,10 +149,17 @@ inline cut::TriangleMesh cutter(Bytes& bytes, const Cloth& cloth) {
 inline cut::MergeDistances distances(Bytes& bytes, const cut::HybridMesh& mesh) {
   cut::MergeDistances d = cut::default_merge_distances(mesh);
   switch (bytes.choice(4)) {
-    case 0: d = {d.cut * 2, d.node * 2, d.edge * 2}; break;
-    case 1: d = {d.cut * 1e-2, d.node * 1e-2, d.edge * 1e-2}; break;
-    case 2: d = {d.cut * 1e-4, d.node * 1e-5, d.edge * 1e-5}; break;
-    default: break;
+    case 0:
+      d = {d.cut * 2, d.node * 2, d.edge * 2};
+      break;
+    case 1:
+      d = {d.cut * 1e-2, d.node * 1e-2, d.edge * 1e-2};
+      break;
+    case 2:
+      d = {d.cut * 1e-4, d.node * 1e-5, d.edge * 1e-5};
+      break;
+    default:
+      break;
   }
   return d;
 }
@@ -150,7 +182,8 @@ inline std::string run(const std::uint8_t* data, std::size_t size, unsigned most
     const auto result = knife.cut(mesh, cutter(bytes, input));
     if (!result) return "cut " + std::to_string(i) + ": " + result.error().message;
     cut::apply(*result, copy);
-    if (!(copy == mesh.buffers)) return "cut " + std::to_string(i) + ": the change set does not give the new buffers";
+    if (!(copy == mesh.buffers))
+      return "cut " + std::to_string(i) + ": the change set does not give the new buffers";
     for (const cut::Violation& v : cut::validate(mesh, 3))
       return "cut " + std::to_string(i) + ": " + v.rule + ": " + v.message;
   }
