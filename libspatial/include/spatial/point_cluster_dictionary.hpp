@@ -37,7 +37,7 @@ struct MergeResult {
 };
 
 /// @tparam T float or double
-/// @tparam D 2 or 3 (any number works; a look-up visits 3^D cells)
+/// @tparam D 2 or 3 (any number works; a look-up visits up to 2^D cells)
 template <class T, std::size_t D, class Value>
 class PointClusterDictionary {
   static_assert(std::is_floating_point_v<T>);
@@ -50,7 +50,7 @@ class PointClusterDictionary {
   explicit PointClusterDictionary(T merge_distance)
       : distance_(static_cast<double>(merge_distance)),
         squared_(distance_ * distance_),
-        cells_per_length_(1 / (distance_ * (1 + relative_slack))) {
+        cells_per_length_(0.5 / (distance_ * (1 + relative_slack))) {
     usable_ = distance_ > 0 && squared_ >= std::numeric_limits<double>::min() &&
               squared_ <= std::numeric_limits<double>::max();
   }
@@ -211,9 +211,10 @@ class PointClusterDictionary {
  private:
   using Key = std::array<std::int32_t, D>;
   static constexpr std::uint32_t none = 0xffffffffu;
-  static constexpr double index_limit = 1073741824.0;  // 2^30, so that a neighbour's index fits too
-  // δf / δm. Rounding moves x / w by at most 2^-53 of 2^30, far less than this; so points within δm of each
-  // other are at most one cell apart.
+  static constexpr double index_limit =
+      536870912.0;  // 2^29 cells of two merge distances; a neighbour's index fits too
+  // δf / δm. Rounding moves a cell coordinate by at most 2^-24 cells, far less than this; so two points
+  // within δm of each other are never half a cell apart.
   static constexpr double relative_slack = 1.0 / (1 << 20);
 
   struct Cluster {
@@ -260,14 +261,26 @@ class PointClusterDictionary {
   template <class Visit>
   void visit_near(const point_type& point, Visit&& visit) const {
     if (!accepts(point)) return;
-    const Key home = key_of(point);
-    Key key{};
-    std::size_t cells = 1;
-    for (std::size_t a = 0; a < D; ++a) cells *= 3;
-    for (std::size_t cell = 0; cell < cells; ++cell) {
-      std::size_t rest = cell;
-      for (std::size_t a = 0; a < D; ++a, rest /= 3)
-        key[a] = home[a] + static_cast<std::int32_t>(rest % 3) - 1;
+    Key home{};
+    Key other{};
+    double gap[D];  // to the other cell on each axis, in cells
+    for (std::size_t a = 0; a < D; ++a) {
+      const double at = static_cast<double>(point[a]) * cells_per_length_;
+      const double index = std::floor(at);
+      const double fraction = at - index;
+      home[a] = static_cast<std::int32_t>(index);
+      other[a] = fraction < 0.5 ? home[a] - 1 : home[a] + 1;
+      gap[a] = fraction < 0.5 ? fraction : 1 - fraction;
+    }
+    Key key = home;
+    for (std::size_t cell = 0; cell < (std::size_t{1} << D); ++cell) {
+      double squared_gap = 0;
+      for (std::size_t a = 0; a < D; ++a) {
+        const bool beyond = ((cell >> a) & 1u) != 0;
+        key[a] = beyond ? other[a] : home[a];
+        squared_gap += beyond ? gap[a] * gap[a] : 0;
+      }
+      if (squared_gap > 0.25) continue;  // the whole cell is farther than half a cell, which is more than δm
       for (std::uint32_t c = table_.find(key); c != none; c = centres_[c].next) {
         const double squared = squared_distance(point, centres_[c].point);
         if (squared <= squared_) visit(c, squared);

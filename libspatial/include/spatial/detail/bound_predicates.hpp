@@ -28,6 +28,7 @@ struct OneByOne {
     }
     return result;
   }
+  [[nodiscard]] std::uint32_t may_and_must(const Rows<T, D>& rows) const { return self().may_mask(rows, 3); }
   template <class Value>
   [[nodiscard]] std::uint32_t hits(const Rows<T, D>& rows, const Value* values, std::size_t count) const {
     std::uint32_t result = 0;
@@ -101,6 +102,13 @@ class BoundRelation : public OneByOne<BoundRelation<R, T, D>, T, D> {
       return reaching(rows, count, q_.max, q_.min);
     return reaching(rows, count, q_.min, q_.max);
   }
+  [[nodiscard]] std::uint32_t may_and_must(const Rows<T, D>& rows) const {
+    if (!valid_) return 0;
+    if constexpr (R == Relation::intersects || R == Relation::covered_by) {
+      return reaching_and_covered(rows, q_.min, q_.max);
+    }
+    return may_mask(rows, 3);
+  }
   template <class Value>
   [[nodiscard]] std::uint32_t hits(const Rows<T, D>& rows, const Value* values, std::size_t count) const {
     if (!valid_) return 0;
@@ -159,6 +167,7 @@ struct BoundAnd {
     }
     return result;
   }
+  [[nodiscard]] std::uint32_t may_and_must(const Rows<T, D>& rows) const { return may_mask(rows, 3); }
   /// The first one tests widely; the second one sees only what the first one has let through.
   template <class Value>
   [[nodiscard]] std::uint32_t hits(const Rows<T, D>& rows, const Value* values, std::size_t count) const {

@@ -33,7 +33,7 @@ class Build {
   typename Core::Nodes nodes;
   typename Core::Leaves leaves;  ///< count says how many boxes there are
   ChildRef root;
-  Box<T, D> root_box = empty_box<T, D>();
+  Box<T, D> root_box = empty_box<T, D>();  // tight, as all child boxes
 
   explicit Build(const typename Core::AllocatorType& allocator)
       : nodes(allocator), leaves(allocator), allocator_(allocator) {}
@@ -50,19 +50,21 @@ class Build {
     std::vector<Entry> other(entries.size());
     Entry* const buffers[2] = {entries.data(), other.data()};
     std::vector<Task> tasks;
-    root_box = bounds(entries.data(), entries.data() + entries.size());
-    tasks.push_back({Cell<T, D>::cube_around(root_box), root_box, 0, entries.size(), none, 0, 0});
+    const Box<T, D> all = bounds(entries.data(), entries.data() + entries.size());
+    tasks.push_back({Cell<T, D>::cube_around(all), 0, entries.size(), none, 0, 0});
     while (!tasks.empty()) {
-      Task task = tasks.back();
+      const Task task = tasks.back();
       tasks.pop_back();
       divide(task, buffers, tasks);
     }
+    tighten(all);
+    nodes.shrink_to_fit();
+    leaves.shrink_to_fit();
   }
 
  private:
   struct Task {
     Cell<T, D> cell;
-    Box<T, D> tight;
     std::size_t begin, end;
     std::uint32_t parent, side;
     unsigned buffer;
@@ -83,30 +85,33 @@ class Build {
   }
 
   void divide(const Task& task, Entry* const (&buffers)[2], std::vector<Task>& tasks) {
-    const Entry* const from = buffers[task.buffer];
+    unsigned buffer = task.buffer;
     const std::size_t count = task.end - task.begin;
+    const auto leaf_here = [&] {
+      make_leaf(task, buffers[buffer] + task.begin, static_cast<std::uint32_t>(count));
+    };
+    if (count <= Core::leaf_limit) return leaf_here();
     Cell<T, D> cell = task.cell;
-    Split<T, D> at;
+    Split<T, D> at = cell.split();
     bool compressed = false;
-    if (count > Core::leaf_limit) {
-      for (;;) {
-        at = cell.split();
-        if (!at.exists()) break;
-        const Side all = side_of(task.tight.min[at.axis], task.tight.max[at.axis], at.plane);
-        if (all == centric) break;
-        cell = cell.child(at, all);
-        compressed = true;
+    std::size_t ends[2];
+    while (at.exists()) {
+      partition(buffers[buffer], buffers[1 - buffer], task.begin, task.end, at, ends);
+      buffer = 1 - buffer;
+      const bool all_lower = ends[0] == task.end;
+      const bool all_higher = ends[1] == task.begin;
+      if (!all_lower && !all_higher) break;
+      // All on one side: this volume is left out, and those below it that the tight box does not cross.
+      cell = cell.child(at, all_lower ? lower : higher);
+      compressed = true;
+      const Box<T, D> tight = bounds(buffers[buffer] + task.begin, buffers[buffer] + task.end);
+      for (at = cell.split(); at.exists(); at = cell.split()) {
+        const Side side = side_of(tight.min[at.axis], tight.max[at.axis], at.plane);
+        if (side == centric) break;
+        cell = cell.child(at, side);
       }
     }
-    if (!at.exists()) {
-      make_leaf(task, from + task.begin, static_cast<std::uint32_t>(count));
-      return;
-    }
-    std::size_t counts[3] = {0, 0, 0};
-    for (std::size_t i = task.begin; i < task.end; ++i) ++counts[side_index(from[i].box, at)];
-    std::size_t ends[3] = {task.begin, task.begin + counts[0], task.begin + counts[0] + counts[1]};
-    Entry* const to = buffers[1 - task.buffer];
-    for (std::size_t i = task.begin; i < task.end; ++i) to[ends[side_index(from[i].box, at)]++] = from[i];
+    if (!at.exists()) return leaf_here();
     const auto index = static_cast<std::uint32_t>(nodes.size());
     nodes.push_back({});
     NodeType& node = nodes.back();
@@ -117,23 +122,49 @@ class Build {
     node.side = static_cast<std::uint8_t>(task.side);
     node.compressed = compressed;
     attach(ChildRef::node(index), task);
-    node.set_child_box(NodeType::lanes - 1, empty_box<T, D>());
+    for (std::size_t s = 0; s < NodeType::lanes; ++s) node.set_child_box(s, empty_box<T, D>());
+    const std::size_t begins[3] = {task.begin, ends[1], ends[0]};
+    const std::size_t all_ends[3] = {ends[0], task.end, ends[1]};
     for (std::uint32_t s = 3; s-- > 0;) {
-      node.set_child_box(s, empty_box<T, D>());
-      if (counts[s] == 0) continue;
-      const std::size_t begin = ends[s] - counts[s];
-      const Box<T, D> tight = bounds(to + begin, to + ends[s]);
-      node.set_child_box(s, tight);
-      tasks.push_back(
-          {cell.child(at, static_cast<Side>(s)), tight, begin, ends[s], index, s, 1 - task.buffer});
+      if (begins[s] == all_ends[s]) continue;
+      tasks.push_back({cell.child(at, static_cast<Side>(s)), begins[s], all_ends[s], index, s, buffer});
     }
   }
 
-  // side_of without branches: which side a box falls on cannot be predicted.
-  static unsigned side_index(const Box<T, D>& box, const Split<T, D>& at) {
-    const bool is_lower = box.max[at.axis] <= at.plane;
-    const bool is_higher = box.min[at.axis] >= at.plane;
-    return is_lower ? lower : is_higher ? higher : centric;
+  // Distributes from[begin, end) over to[begin, end): lower, centric, higher. `ends` are where the first two
+  // end. Every entry is written to all three places and counted in one, since where it belongs cannot be
+  // predicted; the centric ones wait in `from`, in places that have been read already.
+  static void partition(Entry* from, Entry* to, std::size_t begin, std::size_t end, const Split<T, D>& at,
+                        std::size_t (&ends)[2]) {
+    std::size_t low = begin;
+    std::size_t high = end;
+    std::size_t middle = begin;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Entry entry = from[i];
+      const bool is_lower = entry.box.max[at.axis] <= at.plane;
+      const bool is_higher = !is_lower && entry.box.min[at.axis] >= at.plane;
+      to[low] = entry;
+      low += static_cast<std::size_t>(is_lower);
+      to[high - 1] = entry;
+      high -= static_cast<std::size_t>(is_higher);
+      from[middle] = entry;
+      middle += static_cast<std::size_t>(!is_lower && !is_higher);
+    }
+    for (std::size_t i = begin; i < middle; ++i) to[low + (i - begin)] = from[i];
+    ends[0] = low;
+    ends[1] = high;
+  }
+
+  // Tight boxes, from the leaves upwards: parents come before their children in `nodes`.
+  void tighten(const Box<T, D>& all) {
+    root_box = all;
+    for (const LeafType& leaf : leaves) {
+      if (leaf.parent != none) nodes[leaf.parent].set_child_box(leaf.side, leaf.bounds());
+    }
+    for (std::size_t i = nodes.size(); i-- > 0;) {
+      const NodeType& node = nodes[i];
+      if (node.parent != none) nodes[node.parent].set_child_box(node.side, node.bounds());
+    }
   }
 
   void make_leaf(const Task& task, const Entry* entries, std::uint32_t count) {

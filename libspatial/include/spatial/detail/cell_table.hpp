@@ -19,9 +19,9 @@ class CellTable {
   /// The number of a cell, or `none`.
   [[nodiscard]] std::uint32_t find(const Key& key) const {
     if (entries_.empty()) return none;
-    for (std::size_t i = hash(key) >> shift_;; i = (i + 1) & (entries_.size() - 1)) {
+    for (std::size_t i = start(key);; i = (i + 1) & (entries_.size() - 1)) {
       const Entry& entry = entries_[i];
-      if (!entry.used) return none;
+      if (entry.number == unused) return none;
       if (entry.key == key) return entry.number;
     }
   }
@@ -33,8 +33,8 @@ class CellTable {
   /// The number of a cell, to be changed; a new cell has `none`. @pre reserve_one(), for a new cell
   std::uint32_t& entry(const Key& key) {
     Entry& found = place(key);
-    if (!found.used) {
-      found = {key, none, true};
+    if (found.number == unused) {
+      found = {key, none};
       ++used_;
     }
     return found.number;
@@ -47,22 +47,23 @@ class CellTable {
 
  private:
   struct Entry {
-    Key key;
-    std::uint32_t number;
-    bool used;
+    Key key{};
+    std::uint32_t number = unused;
   };
+  static constexpr std::uint32_t unused = 0xfffffffeu;
 
-  static std::uint64_t hash(const Key& key) {
-    std::uint64_t h = 0;
-    for (const std::int32_t k : key) {
-      h = (h ^ static_cast<std::uint32_t>(k)) * 0x9e3779b97f4a7c15u;
-      h ^= h >> 32;
+  [[nodiscard]] std::size_t start(const Key& key) const {
+    const auto first = static_cast<std::uint32_t>(key[0]);
+    std::uint64_t h = first >> 2;
+    for (std::size_t a = 1; a < D; ++a) {
+      h = (h * 0x9e3779b97f4a7c15u) ^ static_cast<std::uint32_t>(key[a]);
+      h ^= h >> 29;
     }
-    return h * 0x9e3779b97f4a7c15u;
+    return static_cast<std::size_t>((h * 0x9e3779b97f4a7c15u) >> shift_ << 2 | (first & 3u));
   }
   Entry& place(const Key& key) {
-    std::size_t i = hash(key) >> shift_;
-    while (entries_[i].used && entries_[i].key != key) i = (i + 1) & (entries_.size() - 1);
+    std::size_t i = start(key);
+    while (entries_[i].number != unused && entries_[i].key != key) i = (i + 1) & (entries_.size() - 1);
     return entries_[i];
   }
   void grow() {
@@ -70,9 +71,9 @@ class CellTable {
     std::vector<Entry> old(size, Entry{});
     old.swap(entries_);
     shift_ = 64;
-    for (std::size_t s = size; s > 1; s /= 2) --shift_;
+    for (std::size_t s = size / 4; s > 1; s /= 2) --shift_;
     for (const Entry& entry : old) {
-      if (entry.used) place(entry.key) = entry;
+      if (entry.number != unused) place(entry.key) = entry;
     }
   }
 

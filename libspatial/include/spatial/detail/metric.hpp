@@ -4,6 +4,7 @@
 #pragma once
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <limits>
 #include <type_traits>
 
@@ -17,6 +18,9 @@ namespace spatial::detail {
 template <class T>
 using DistanceOf = std::conditional_t<std::is_floating_point_v<T>, T, double>;
 
+/// Room for the keys of one mask of boxes, and what a wide write adds to them.
+inline constexpr std::size_t keys_room = mask_bits + 8;
+
 /// Squared Euclidean distance from a box. Squares that overflow are infinite, and tie.
 template <class T, std::size_t D>
 class BoxMetric {
@@ -25,8 +29,29 @@ class BoxMetric {
   static constexpr S never = std::numeric_limits<S>::quiet_NaN();
   explicit BoxMetric(const Box<T, D>& query) : q_(query), valid_(is_valid(query)) {}
 
-  /// keys[i] is the key of box i, or NaN for one that is never reached. @pre count <= mask_bits
+  /// keys[i] is the key of box i, or NaN for one that is never reached. There is room for keys_room of them;
+  /// those beyond `count` mean nothing. @pre count <= mask_bits
   void keys(const Rows<T, D>& rows, std::size_t count, S* keys) const {
+#ifdef SPATIAL_WIDE
+    if constexpr (Pack<T>::width != 0) {
+      using V = typename Pack<T>::V;
+      for (std::size_t i = 0; i < count; i += Pack<T>::width) {
+        V sum = V{} + (valid_ ? S{0} : never);
+        for (std::size_t a = 0; a < D; ++a) {
+          V low, high;
+          std::memcpy(&low, rows.first + a * rows.stride + i, sizeof(V));
+          std::memcpy(&high, rows.first + (D + a) * rows.stride + i, sizeof(V));
+          const V above = low - q_.max[a];
+          const V below = q_.min[a] - high;
+          const V outside = above > below ? above : below;
+          const V gap = outside > V{} ? outside : V{};
+          sum += gap * gap;
+        }
+        std::memcpy(keys + i, &sum, sizeof(V));
+      }
+      return;
+    }
+#endif
     for (std::size_t i = 0; i < count; ++i) keys[i] = valid_ ? S{0} : never;
     for (std::size_t a = 0; a < D; ++a) {
       const T* low = rows.first + a * rows.stride;

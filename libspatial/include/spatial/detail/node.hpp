@@ -13,6 +13,8 @@ namespace spatial::detail {
 /// A child: nothing, a node or a leaf, by its index.
 struct ChildRef {
   static constexpr std::uint32_t leaf_bit = 0x80000000u;
+  /// Used by searches for what needs no further test.
+  static constexpr std::uint32_t inside_bit = 0x40000000u;
   static constexpr std::uint32_t none = 0xffffffffu;
   std::uint32_t bits = none;
 
@@ -20,14 +22,17 @@ struct ChildRef {
   static constexpr ChildRef leaf(std::uint32_t index) { return {index | leaf_bit}; }
   [[nodiscard]] constexpr bool empty() const { return bits == none; }
   [[nodiscard]] constexpr bool is_leaf() const { return (bits & leaf_bit) != 0; }  ///< @pre !empty()
-  [[nodiscard]] constexpr std::uint32_t index() const { return bits & ~leaf_bit; }
+  [[nodiscard]] constexpr bool is_inside() const { return (bits & inside_bit) != 0; }
+  [[nodiscard]] constexpr std::uint32_t index() const { return bits & ~(leaf_bit | inside_bit); }
   friend constexpr bool operator==(ChildRef, ChildRef) = default;
 };
 
+/// On a cache line of its own, with the rows first: a query reads these and the children, an insertion the rest.
 template <class T, std::size_t D>
-struct Node {
+struct alignas(64) Node {
   static constexpr std::size_t lanes = 4;  ///< three children, and one that is always empty
 
+  T rows[2 * D][lanes];  ///< tight boxes: min[row] of each child for row < D, then max[row - D]
   T plane{};
   std::uint32_t axis = 0;
   std::uint32_t parent = 0;  ///< the next free node while this one is free
@@ -36,7 +41,6 @@ struct Node {
   /// out.
   bool compressed = false;
   ChildRef child[3];
-  T rows[2 * D][lanes];  ///< tight boxes: min[row] of each child for row < D, then max[row - D]
   Cell<T, D> cell;
 
   [[nodiscard]] Split<T, D> split() const { return {axis, plane}; }

@@ -3,8 +3,10 @@
 /// Out: elements, one at a time from an OrderedCursor, or the first k of them at once.
 #pragma once
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -51,7 +53,7 @@ class OrderedCursor {
     if (core.root().empty() || !filter_.may(core.root_box())) return;
     typename Core::NodeType above;
     above.set_child_box(0, core.root_box());
-    S key[1];
+    S key[keys_room];
     metric_.keys(rows_of<Core>(above), 1, key);
     if (key[0] == key[0]) waiting_.push_back({key[0], core.root(), Found<S>::whole});
   }
@@ -84,7 +86,7 @@ class OrderedCursor {
 
  private:
   void open_node(const typename Core::NodeType& node) {
-    S keys[3];
+    S keys[keys_room];
     metric_.keys(rows_of<Core>(node), 3, keys);
     for (std::size_t s = 0; s < 3; ++s) {
       if (node.child[s].empty() || keys[s] != keys[s] || !filter_.may(node.child_box(s))) continue;
@@ -93,7 +95,7 @@ class OrderedCursor {
   }
   void open_leaf(ChildRef place) {
     const auto& leaf = core_->leaf(place.index());
-    S keys[mask_bits];
+    S keys[keys_room];
     for (std::uint32_t begin = 0; begin < leaf.count; begin += mask_bits) {
       const std::uint32_t count = leaf.count - begin < mask_bits ? leaf.count - begin : mask_bits;
       metric_.keys(rows_of<Core>(leaf).from(begin), count, keys);
@@ -117,45 +119,93 @@ class OrderedCursor {
   Found<S> found_{};
 };
 
+/// Keeps the `limit` smallest of what it is given. A few are kept sorted; many are collected, and thinned out
+/// whenever twice as many have come together, which costs constant time for each.
+template <class S>
+class Smallest {
+ public:
+  Smallest(std::size_t limit, std::size_t available) : limit_(limit), sorted_(limit <= few) {
+    best_.reserve(sorted_ ? limit : std::min(2 * limit, available));
+  }
+  /// What has a key of `worst()` or more is not needed any more.
+  [[nodiscard]] S worst() const { return worst_; }
+  /// False if less than `limit` were given so far, so that an infinite key counts too.
+  [[nodiscard]] bool full() const { return full_; }
+  void add(const Found<S>& item) {
+    if (!sorted_) {
+      best_.push_back(item);
+      if (best_.size() >= 2 * limit_) thin();
+      return;
+    }
+    if (best_.size() < limit_) {
+      best_.push_back(item);
+    } else {
+      best_.back() = item;
+    }
+    for (std::size_t i = best_.size() - 1; i > 0 && best_[i].key < best_[i - 1].key; --i) {
+      std::swap(best_[i], best_[i - 1]);
+    }
+    full_ = best_.size() == limit_;
+    if (full_) worst_ = best_.back().key;
+  }
+  std::vector<Found<S>> take() {
+    if (!sorted_) {
+      if (best_.size() > limit_) thin();
+      std::sort(best_.begin(), best_.end(), Nearer{});
+    }
+    return std::move(best_);
+  }
+
+ private:
+  static constexpr std::size_t few = 16;
+  struct Nearer {
+    bool operator()(const Found<S>& a, const Found<S>& b) const { return a.key < b.key; }
+  };
+  void thin() {
+    const auto last = best_.begin() + static_cast<std::ptrdiff_t>(limit_ - 1);
+    std::nth_element(best_.begin(), last, best_.end(), Nearer{});
+    best_.resize(limit_);
+    worst_ = best_.back().key;
+    full_ = true;
+  }
+
+  std::size_t limit_;
+  bool sorted_;
+  bool full_ = false;
+  S worst_ = std::numeric_limits<S>::infinity();
+  std::vector<Found<S>> best_;
+};
+
 /// The `limit` elements with the smallest keys, in order. Walks depth first, nearest child first, and prunes
-/// with the worst of the best so far: unlike best first, it keeps only `limit` elements.
+/// with the worst of the best so far: unlike best first, it keeps few elements.
 template <class Core, class Metric, class Filter>
 std::vector<Found<typename Metric::S>> first_of(const Core& core, const Metric& metric, const Filter& filter,
                                                 std::size_t limit) {
   using S = typename Metric::S;
-  std::vector<Found<S>> best;
-  if (core.root().empty() || limit == 0 || !filter.may(core.root_box())) return best;
-  const auto nearer = [](const Found<S>& a, const Found<S>& b) { return a.key < b.key; };
-  best.reserve(std::min(limit, core.size()));
-  struct Waiting {
+  Smallest<S> best(limit, core.size());
+  if (core.root().empty() || limit == 0 || !filter.may(core.root_box())) return {};
+  struct Item {
     S key;
     ChildRef place;
   };
-  SmallStack<Waiting, stack_inline> stack;
+  SmallStack<Item, stack_inline> stack;
   stack.push({S{0}, core.root()});
-  S worst = std::numeric_limits<S>::infinity();
-  S keys[mask_bits];
+  S keys[keys_room];
   while (!stack.empty()) {
-    const Waiting top = stack.pop();
-    if (top.key > worst || (top.key == worst && best.size() == limit)) continue;
+    const Item top = stack.pop();
+    if (best.full() && !(top.key < best.worst())) continue;
     if (top.place.is_leaf()) {
       const auto& leaf = core.leaf(top.place.index());
       for (std::uint32_t begin = 0; begin < leaf.count; begin += mask_bits) {
         const std::uint32_t count = leaf.count - begin < mask_bits ? leaf.count - begin : mask_bits;
         metric.keys(rows_of<Core>(leaf).from(begin), count, keys);
-        for (std::uint32_t i = 0; i < count; ++i) {
-          const bool full = best.size() == limit;
-          if (!(full ? keys[i] < worst : keys[i] <= worst)) continue;
+        std::uint32_t near = below(keys, count, best.worst(), !best.full());
+        for (; near != 0; near &= near - 1) {
+          const auto i = static_cast<std::uint32_t>(std::countr_zero(near));
           const std::uint32_t at = begin + i;
+          if (best.full() && !(keys[i] < best.worst())) continue;
           if (!filter.test(leaf.box(at), unwrap(leaf.values()[at]))) continue;
-          if (full) {
-            std::pop_heap(best.begin(), best.end(), nearer);
-            best.back() = {keys[i], top.place, at};
-          } else {
-            best.push_back({keys[i], top.place, at});
-          }
-          std::push_heap(best.begin(), best.end(), nearer);
-          if (best.size() == limit) worst = best.front().key;
+          best.add({keys[i], top.place, at});
         }
       }
       continue;
@@ -168,12 +218,11 @@ std::vector<Found<typename Metric::S>> first_of(const Core& core, const Metric& 
     if (keys[order[1]] < keys[order[2]]) std::swap(order[1], order[2]);
     if (keys[order[0]] < keys[order[1]]) std::swap(order[0], order[1]);
     for (const std::uint32_t s : order) {
-      if (node.child[s].empty() || !(keys[s] <= worst) || !filter.may(node.child_box(s))) continue;
+      if (node.child[s].empty() || !(keys[s] <= best.worst()) || !filter.may(node.child_box(s))) continue;
       stack.push({keys[s], node.child[s]});
     }
   }
-  std::sort_heap(best.begin(), best.end(), nearer);
-  return best;
+  return best.take();
 }
 
 }  // namespace spatial::detail

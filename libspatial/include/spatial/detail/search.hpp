@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <utility>
+#include <vector>
 
 #include "bound_predicates.hpp"
 #include "node.hpp"
@@ -34,35 +35,100 @@ struct NoCounts {
   void leaf(std::size_t) {}
 };
 
+/// Nodes that wait, and leaves that wait. They are written without branches, since whether a child is hit,
+/// and whether it is a leaf, cannot be predicted.
+class Waiting {
+ public:
+  static constexpr std::size_t leaf_batch = 64;
+
+  explicit Waiting(ChildRef root) {
+    (root.is_leaf() ? leaves_[leaf_count_++] : nodes_[node_count_++]) = root.bits;
+  }
+  /// Adds those of three children whose bits are set in `hit`, marked where the bit four higher is.
+  void push(const ChildRef (&child)[3], std::uint32_t hit) {
+    for (std::uint32_t side = 0; side < 3; ++side) {
+      const std::uint32_t bits = child[side].bits;
+      const std::uint32_t is_hit = (hit >> side) & 1u & static_cast<std::uint32_t>(bits != ChildRef::none);
+      const std::uint32_t is_leaf = bits >> 31;
+      const std::uint32_t marked = bits | ((hit >> (4 + side)) & 1u) << 30;
+      leaves_[leaf_count_] = marked;
+      leaf_count_ += is_hit & is_leaf;
+      nodes_[node_count_] = marked;
+      node_count_ += is_hit & (is_leaf ^ 1u);
+    }
+    if (node_count_ + 3 > inline_nodes) spill();
+  }
+  bool pop_node(ChildRef& ref) {
+    if (node_count_ == 0 && !unspill()) return false;
+    ref.bits = nodes_[--node_count_];
+    return true;
+  }
+  [[nodiscard]] bool batch_is_full() const { return leaf_count_ + 3 > leaf_batch; }
+  [[nodiscard]] std::size_t leaf_count() const { return leaf_count_; }
+  [[nodiscard]] ChildRef leaf(std::size_t i) const { return {leaves_[i]}; }
+  void clear_leaves() { leaf_count_ = 0; }
+
+ private:
+  static constexpr std::size_t inline_nodes = 128;
+  void spill() {
+    more_.insert(more_.end(), nodes_, nodes_ + node_count_);
+    node_count_ = 0;
+  }
+  bool unspill() {
+    if (more_.empty()) return false;
+    nodes_[node_count_++] = more_.back();
+    more_.pop_back();
+    return true;
+  }
+  std::size_t node_count_ = 0;
+  std::size_t leaf_count_ = 0;
+  std::uint32_t nodes_[inline_nodes];
+  std::uint32_t leaves_[leaf_batch];
+  std::vector<std::uint32_t> more_;
+};
+
+/// Calls `visit(leaf, position)` for every hit in a leaf until it returns false.
+template <class Core, class Bound, class Visit>
+bool search_leaf(const typename Core::LeafType& leaf, bool all, const Bound& predicate, Visit& visit) {
+  if (all) {
+    for (std::uint32_t i = 0; i < leaf.count; ++i) {
+      if (!visit(leaf, i)) return false;
+    }
+    return true;
+  }
+  const auto* values = leaf.values();
+  for (std::uint32_t begin = 0; begin < leaf.count; begin += mask_bits) {
+    const std::uint32_t count = leaf.count - begin < mask_bits ? leaf.count - begin : mask_bits;
+    std::uint32_t hits = predicate.hits(rows_of<Core>(leaf).from(begin), values + begin, count);
+    for (; hits != 0; hits &= hits - 1) {
+      if (!visit(leaf, begin + static_cast<std::uint32_t>(std::countr_zero(hits)))) return false;
+    }
+  }
+  return true;
+}
+
 /// Calls `visit(leaf, position)` for every hit until it returns false. Returns whether all were visited.
 template <class Core, class Bound, class Visit, class Counts = NoCounts>
 bool search(const Core& core, const Bound& predicate, Visit&& visit, Counts&& counts = {}) {
   if (core.root().empty() || !predicate.may(core.root_box())) return true;
-  SmallStack<ChildRef, stack_inline> stack;
-  stack.push(core.root());
-  while (!stack.empty()) {
-    const ChildRef here = stack.pop();
-    if (here.is_leaf()) {
-      const auto& leaf = core.leaf(here.index());
-      counts.leaf(leaf.count);
-      const auto* values = leaf.values();
-      for (std::uint32_t begin = 0; begin < leaf.count; begin += mask_bits) {
-        const std::uint32_t count = leaf.count - begin < mask_bits ? leaf.count - begin : mask_bits;
-        std::uint32_t hits = predicate.hits(rows_of<Core>(leaf).from(begin), values + begin, count);
-        for (; hits != 0; hits &= hits - 1) {
-          if (!visit(leaf, begin + static_cast<std::uint32_t>(std::countr_zero(hits)))) return false;
-        }
-      }
-    } else {
+  Waiting waiting(core.root());
+  ChildRef here;
+  for (;;) {
+    while (!waiting.batch_is_full() && waiting.pop_node(here)) {
       const auto& node = core.node(here.index());
       counts.node();
-      const std::uint32_t may = predicate.may_mask(rows_of<Core>(node), 3);
-      for (std::uint32_t side = 3; side-- > 0;) {
-        if (((may >> side) & 1u) != 0 && !node.child[side].empty()) stack.push(node.child[side]);
-      }
+      const std::uint32_t hit = here.is_inside() ? 0x77u : predicate.may_and_must(rows_of<Core>(node));
+      waiting.push(node.child, hit);
     }
+    if (waiting.leaf_count() == 0) return true;
+    for (std::size_t i = 0; i < waiting.leaf_count(); ++i) {
+      const ChildRef ref = waiting.leaf(i);
+      const auto& leaf = core.leaf(ref.index());
+      counts.leaf(leaf.count);
+      if (!search_leaf<Core>(leaf, ref.is_inside(), predicate, visit)) return false;
+    }
+    waiting.clear_leaves();
   }
-  return true;
 }
 
 /// The same walk, one hit at a time.
