@@ -1,0 +1,20 @@
+// Registers the benchmarks of libspatial and runs them. For a table of ratios see compare.py.
+#include <benchmark/benchmark.h>
+
+void add_tree_f2();
+void add_tree_f3();
+void add_tree_d2();
+void add_tree_d3();
+void add_dictionary();
+
+int main(int argc, char** argv) {
+  add_tree_f2();
+  add_tree_f3();
+  add_tree_d2();
+  add_tree_d3();
+  add_dictionary();
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}

@@ -1,0 +1,117 @@
+// Peers that have one operation each: CGAL for pairs, nanoflann for nearest points; and all benchmarks of one
+// scalar type.
+#pragma once
+#include <CGAL/box_intersection_d.h>
+
+#include <nanoflann.hpp>
+
+#include "tree_benchmarks.hpp"
+
+namespace tree_benchmarks {
+
+template <class T, std::size_t D>
+void add_cgal_pairs(const std::string& data_name, std::size_t count, const std::string& type) {
+  if (data_name == "overlapping") return;
+  benchmark::RegisterBenchmark(
+      ("pairs/" + data_name + "/" + type + "/" + std::to_string(count) + "/cgal_box_intersection").c_str(),
+      [=](benchmark::State& state) {
+        using Box = CGAL::Box_intersection_d::Box_d<T, static_cast<int>(D)>;
+        const auto& boxes = scene<T, D>(data_name, count).boxes;
+        std::vector<Box> all;
+        for (auto b : boxes) all.emplace_back(b.min.data(), b.max.data());
+        for (auto _ : state) {
+          auto copy = all;
+          std::size_t sum = 0;
+          CGAL::box_self_intersection_d(copy.begin(), copy.end(),
+                                        [&](const Box& a, const Box& b) { sum += a.id() ^ b.id(); });
+          benchmark::DoNotOptimize(sum);
+        }
+      })
+      ->Unit(benchmark::kMillisecond);
+  benchmark::RegisterBenchmark(
+      ("pairs/" + data_name + "/" + type + "/" + std::to_string(count) + "/bbtt_with_build").c_str(),
+      [=](benchmark::State& state) {
+        const auto& boxes = scene<T, D>(data_name, count).boxes;
+        for (auto _ : state) benchmark::DoNotOptimize(peers::Bbtt<T, D>::bulk(boxes).pairs(boxes));
+      })
+      ->Unit(benchmark::kMillisecond);
+}
+
+template <class T, std::size_t D>
+struct Cloud {
+  const std::vector<spatial::Point<T, D>>& points;
+  std::size_t kdtree_get_point_count() const { return points.size(); }
+  T kdtree_get_pt(std::size_t i, std::size_t axis) const { return points[i][axis]; }
+  template <class B>
+  bool kdtree_get_bbox(B&) const {
+    return false;
+  }
+};
+
+/// Points, against nanoflann.
+template <class T, std::size_t D>
+void add_points(std::size_t count, const std::string& type) {
+  using Tree = spatial::BoundingBoxTernaryTree<std::uint32_t, T, D>;
+  using Flann = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<T, Cloud<T, D>>, Cloud<T, D>,
+                                                    static_cast<int>(D), std::uint32_t>;
+  static std::vector<spatial::Point<T, D>> points;
+  const auto get = [=]() -> const std::vector<spatial::Point<T, D>>& {
+    if (points.size() != count) {
+      points.clear();
+      for (const auto& b : data::make<T, D>("uniform", count)) points.push_back(b.min);
+    }
+    return points;
+  };
+  const auto queries = [=] { return data::make<T, D>("uniform", 1000, 99); };
+  for (const unsigned k : {1u, 10u, 100u}) {
+    const std::string name =
+        "nearest_point_" + std::to_string(k) + "/uniform/" + type + "/" + std::to_string(count);
+    benchmark::RegisterBenchmark((name + "/bbtt").c_str(), [=](benchmark::State& state) {
+      std::vector<std::pair<spatial::Point<T, D>, std::uint32_t>> values;
+      for (const auto& p : get()) values.push_back({p, static_cast<std::uint32_t>(values.size())});
+      const Tree tree(values.begin(), values.end());
+      const auto asked = queries();
+      for (auto _ : state) {
+        std::size_t sum = 0;
+        for (const auto& q : asked)
+          tree.query(spatial::nearest(q.min, k), [&](std::uint32_t v) { sum += v; });
+        benchmark::DoNotOptimize(sum);
+      }
+    })->Unit(benchmark::kMillisecond);
+    benchmark::RegisterBenchmark((name + "/nanoflann").c_str(), [=](benchmark::State& state) {
+      const Cloud<T, D> cloud{get()};
+      Flann tree(static_cast<int>(D), cloud, nanoflann::KDTreeSingleIndexAdaptorParams(16));
+      tree.buildIndex();
+      const auto asked = queries();
+      std::vector<std::uint32_t> ids(k);
+      std::vector<T> distances(k);
+      for (auto _ : state) {
+        std::size_t sum = 0;
+        for (const auto& q : asked) {
+          tree.knnSearch(q.min.data(), k, ids.data(), distances.data());
+          for (const auto i : ids) sum += i;
+        }
+        benchmark::DoNotOptimize(sum);
+      }
+    })->Unit(benchmark::kMillisecond);
+  }
+}
+
+template <class T, std::size_t D>
+void add_all(const std::string& type) {
+  for (const std::size_t count : {std::size_t{1000}, std::size_t{100000}, std::size_t{1000000}}) {
+    for (const std::string name : data::names) {
+      if (name == "overlapping" && count > 100000) continue;
+      add<T, D, peers::Bbtt>(name, count, type, "bbtt", false);
+      add<T, D, peers::Linear>(name, count, type, "boost_linear", false);
+      add<T, D, peers::Quadratic>(name, count, type, "boost_quadratic", false);
+      add<T, D, peers::Rstar>(name, count, type, "boost_rstar", false);
+      add<T, D, peers::Bbtt>(name, count, type, "bbtt", true);
+      add<T, D, peers::Rstar>(name, count, type, "boost_packed", true);
+      add_cgal_pairs<T, D>(name, count, type);
+    }
+    add_points<T, D>(count, type);
+  }
+}
+
+}  // namespace tree_benchmarks
