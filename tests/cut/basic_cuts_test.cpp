@@ -17,10 +17,7 @@ using Vector3 = Eigen::Vector3d;
 const Vector3 up{0, 0, 1};
 
 /// A vertical wall over the path, through the plane z = 0.
-cut::TriangleMesh wall(scenes::Path path) {
-  for (Vector3& p : path) p.z() = -1;
-  return scenes::ribbon(path, {0, 0, 2});
-}
+cut::TriangleMesh wall(const scenes::Path& path) { return scenes::ribbon(path, {0, 0, 2}); }
 
 TEST_CASE("a cut through a sheet gives two pieces") {
   Session s(scenes::grid(4, 4));

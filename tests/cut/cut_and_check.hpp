@@ -23,6 +23,8 @@ struct Session {
   cut::Cutter cutter;
 
   explicit Session(const cut::TriangleMesh& cloth) : Session(build(cloth)) {}
+  Session(const cut::TriangleMesh& cloth, const cut::MergeDistances& distances)
+      : mesh(build(cloth)), cutter(distances) {}
   explicit Session(cut::HybridMesh built)
       : mesh(std::move(built)), cutter(cut::default_merge_distances(mesh)) {}
 

@@ -98,11 +98,7 @@ inline Eigen::Vector3d point(Bytes& bytes, const Cloth& cloth) {
 /// any triangles.
 inline cut::TriangleMesh cutter(Bytes& bytes, const Cloth& cloth) {
   const Eigen::Vector3d deep = Eigen::Vector3d::UnitZ() * (2 * (cloth.high - cloth.low).maxCoeff() + 2);
-  const auto base = [&] {
-    Eigen::Vector3d p = point(bytes, cloth);
-    p -= deep / 2;
-    return p;
-  };
+  const auto base = [&] { return point(bytes, cloth); };
   switch (bytes.choice(6)) {
     case 0:
       return scenes::ribbon({base(), base()}, deep);

@@ -25,8 +25,8 @@ cut::TriangleMesh wall(const scenes::Path& path) { return scenes::ribbon(path, {
 
 std::uint64_t progressive() {
   std::vector<cut::TriangleMesh> steps;
-  const Vector3 from{-0.1, 0.31, -1.5};
-  const Vector3 to{1.1, 0.64, -1.5};
+  const Vector3 from{-0.1, 0.31, 0};
+  const Vector3 to{1.1, 0.64, 0};
   for (int i = 0; i < 40; ++i)
     steps.push_back(wall({from + (to - from) * i / 40, from + (to - from) * (i + 1) / 40}));
   return after_cuts(scenes::curved_sheet(20), steps);
@@ -37,20 +37,20 @@ std::uint64_t again_and_again() {
   for (int i = 0; i < 24; ++i) {
     const double a = (i * 7 % 24) / 6.0;
     const double b = (i * 11 % 24) / 6.0;
-    cutters.push_back(wall({{a - 0.5, -1, -1.5}, {4.2 - b, 5, -1.5}}));
+    cutters.push_back(wall({{a - 0.5, -1, 0}, {4.2 - b, 5, 0}}));
   }
   return after_cuts(scenes::random_sheet(4, 4, 1.0, 3), cutters);
 }
 
 const hashes::Case cases[]{
-    {"cut/through", [] { return after_cuts(scenes::grid(6, 6), {wall({{-1, 1.3, -1.5}, {7, 4.6, -1.5}})}); }},
+    {"cut/through", [] { return after_cuts(scenes::grid(6, 6), {wall({{-1, 1.3, 0}, {7, 4.6, 0}})}); }},
     {"cut/along_edges",
-     [] { return after_cuts(scenes::grid(6, 6), {scenes::ribbon({{-1, 2, -1}, {7, 2, -1}}, {0, 0, 2})}); }},
+     [] { return after_cuts(scenes::grid(6, 6), {scenes::ribbon({{-1, 2, 0}, {7, 2, 0}}, {0, 0, 2})}); }},
     {"cut/cut_out",
      [] {
        return after_cuts(
            scenes::sphere(3),
-           {scenes::tube(scenes::circle_path({0, 0, -2}, {0.5, 0, 0}, {0, 0.4, 0}, 24), {0, 0, 4})});
+           {scenes::tube(scenes::circle_path({0, 0, 0}, {0.5, 0, 0}, {0, 0.4, 0}, 24), {0, 0, 4})});
      }},
     {"cut/star",
      [] {
@@ -60,10 +60,10 @@ const hashes::Case cases[]{
     {"cut/e_shape",
      [] {
        return after_cuts(scenes::twelve_triangles(),
-                         {scenes::e_shape({0.6, 0.2, -1}, {0, 1.2, 0}, {1.4, 0, 0}, {0, 0, 2})});
+                         {scenes::e_shape({0.6, 0.2, 0}, {0, 1.2, 0}, {1.4, 0, 0}, {0, 0, 2})});
      }},
     {"cut/moebius",
-     [] { return after_cuts(scenes::moebius_strip(24, 4), {wall({{-2, 0.1, -1.5}, {2, 0.3, -1.5}})}); }},
+     [] { return after_cuts(scenes::moebius_strip(24, 4), {wall({{-2, 0.1, 0}, {2, 0.3, 0}})}); }},
     {"cut/progressive", progressive},
     {"cut/again_and_again", again_and_again},
 };
