@@ -28,37 +28,60 @@ Box box_of(const HybridMesh& mesh, std::size_t triangle) {
 }  // namespace
 
 bool BroadPhase::update(const HybridMesh& mesh, Error& error) {
-  if (filled_ && position_version_ == mesh.position_version &&
-      handles_.size() == mesh.buffers.triangles.size())
+  const std::size_t count = mesh.buffers.triangles.size();
+  if (triangle_count_ == count && position_version_ == mesh.position_version) {
+    if (has_tree_) return true;
+    std::vector<std::pair<Box, TriangleId>> boxes;
+    boxes.reserve(count);
+    for (std::size_t t = 0; t < count; ++t) boxes.emplace_back(box_of(mesh, t), TriangleId{t});
+    tree_.insert(boxes.begin(), boxes.end());
+    has_tree_ = true;
     return true;
+  }
   for (std::size_t n = 0; n < mesh.positions.size(); ++n) {
     if (mesh.positions[n].allFinite()) continue;
     error = {Error::Kind::not_finite,
              "physics node " + std::to_string(n) + " has a coordinate that is NaN or infinite", n};
     return false;
   }
-  const std::size_t count = mesh.buffers.triangles.size();
-  for (std::size_t t = 0; t < handles_.size(); ++t) tree_.move(handles_[t], box_of(mesh, t));
-  handles_.reserve(count);
-  for (std::size_t t = handles_.size(); t < count; ++t)
-    handles_.push_back(tree_.insert(box_of(mesh, t), TriangleId{t}));
-  filled_ = true;
+  tree_.clear();
+  has_tree_ = false;
+  triangle_count_ = count;
   position_version_ = mesh.position_version;
   return true;
 }
 
 void BroadPhase::add(const HybridMesh& mesh, const std::vector<TriangleCopy>& copies) {
-  for (const TriangleCopy& c : copies)
-    if (c.triangle.index() == handles_.size())
-      handles_.push_back(tree_.insert(box_of(mesh, c.triangle.index()), c.triangle));
+  triangle_count_ = mesh.buffers.triangles.size();
+  if (!has_tree_) return;
+  for (const TriangleCopy& c : copies) tree_.insert(box_of(mesh, c.triangle.index()), c.triangle);
 }
 
-std::vector<CandidatePair> BroadPhase::candidates(const TriangleMesh& cutter, double slack) const {
+std::vector<CandidatePair> BroadPhase::candidates(const HybridMesh& mesh, const TriangleMesh& cutter,
+                                                  double slack) const {
   std::vector<CandidatePair> pairs;
+  const auto add_pair = [&](TriangleId triangle, std::uint32_t cutter_triangle) {
+    // A removed triangle keeps its place in the arrays and in the tree.
+    if (mesh.buffers.triangles[triangle.index()].ancestor.valid())
+      pairs.push_back({triangle, cutter_triangle});
+  };
+  std::vector<std::pair<Box, std::uint32_t>> faces;
   for (std::uint32_t i = 0; i < cutter.triangles.size(); ++i) {
     const auto& t = cutter.triangles[i];
-    const Box box = box_of(cutter.positions[t[0]], cutter.positions[t[1]], cutter.positions[t[2]], slack);
-    tree_.query(spatial::intersects(box), [&](TriangleId triangle) { pairs.push_back({triangle, i}); });
+    faces.emplace_back(box_of(cutter.positions[t[0]], cutter.positions[t[1]], cutter.positions[t[2]], slack),
+                       i);
+  }
+  if (has_tree_) {
+    for (const auto& [box, i] : faces)
+      tree_.query(spatial::intersects(box), [&, face = i](TriangleId triangle) { add_pair(triangle, face); });
+    return pairs;
+  }
+  const spatial::BoundingBoxTernaryTree<std::uint32_t, double, 3> tree(faces.begin(), faces.end());
+  const Box bounds = tree.bounds();
+  for (std::size_t t = 0; t < mesh.buffers.triangles.size(); ++t) {
+    const Box box = box_of(mesh, t);
+    if (!spatial::touch(box, bounds)) continue;
+    tree.query(spatial::intersects(box), [&](std::uint32_t face) { add_pair(TriangleId{t}, face); });
   }
   return pairs;
 }

@@ -1,7 +1,9 @@
 /// @file
-/// Which physics triangles a cutter may meet: the boxes of all physics triangles in a BBTT (§5.1), kept
-/// between cuts.
+/// Which physics triangles a cutter may meet, found with a BBTT (§5.1): that of the cloth's triangles, kept
+/// between cuts, while the cloth stands still; that of the cutter's triangles when the cloth has moved, since
+/// each of the cloth's boxes is then looked at only once.
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -15,22 +17,24 @@ namespace cut {
 
 class BroadPhase {
  public:
-  /// Brings the boxes to where the mesh is now. O(1) when nothing has moved since the last call, else
-  /// O(triangles).
+  /// Finds out whether the mesh has moved since the last call. O(1) when it has not, except O(triangles) for
+  /// the first time that it has not; else O(nodes).
   /// @return false, and `error`, when a position is not finite
   bool update(const HybridMesh& mesh, Error& error);
 
   /// Adds the physics triangles that a cut has made. Those that it changed lie where they were.
   void add(const HybridMesh& mesh, const std::vector<TriangleCopy>& copies);
 
-  /// All pairs whose boxes are within `slack` of each other.
-  [[nodiscard]] std::vector<CandidatePair> candidates(const TriangleMesh& cutter, double slack) const;
+  /// All pairs whose boxes are within `slack` of each other, in no particular order.
+  /// @pre update was called and the mesh is as it was then
+  /// Complexity: by the size of the cutter and the result; O(triangles) in addition when the mesh has moved.
+  [[nodiscard]] std::vector<CandidatePair> candidates(const HybridMesh& mesh, const TriangleMesh& cutter,
+                                                      double slack) const;
 
  private:
-  using Tree = spatial::BoundingBoxTernaryTree<TriangleId, double, 3>;
-  Tree tree_;
-  std::vector<spatial::Handle> handles_;  ///< per physics triangle
-  bool filled_ = false;
+  spatial::BoundingBoxTernaryTree<TriangleId, double, 3> tree_;  ///< empty until the mesh stands still
+  bool has_tree_ = false;
+  std::size_t triangle_count_ = 0;  ///< of the mesh when last seen; 0: never
   std::uint64_t position_version_ = 0;
 };
 

@@ -121,7 +121,7 @@ Result<Changes> Cutter::cut(HybridMesh& mesh, const TriangleMesh& cutter) {
   const CutContext context{memory_->distances, memory_->centres, mesh.cut_count + 1, memory_->previous_cut};
   const double slack = contact_slack(context.distances, cutter);
   std::vector<TriangleWork> works =
-      detect_cutting_lines(mesh, cutter, memory_->broad_phase.candidates(cutter, slack), slack);
+      detect_cutting_lines(mesh, cutter, memory_->broad_phase.candidates(mesh, cutter, slack), slack);
   watch.lap(timings.detect);
 
   ++mesh.cut_count;
