@@ -30,20 +30,28 @@ scenes::Path on_sheet(scenes::Path path, std::size_t cells) {
   return path;
 }
 
-/// The quads that a blade of twice the length `reach` sweeps while its middle follows the path. It leans over
-/// by a third of its length, first one way, then the other.
-std::vector<cut::TriangleMesh> sweeps(const scenes::Path& path, double reach) {
-  const auto half = [&](std::size_t i) {
-    const Eigen::Vector2d lean =
-        scenes::circle_point(static_cast<double>(i) / static_cast<double>(path.size())) / 3;
-    return Vector3d{lean.x() * reach, lean.y() * reach, reach};
-  };
+/// The quads that the blade from -half to half sweeps while its middle follows the path.
+std::vector<cut::TriangleMesh> sweeps(const scenes::Path& path, const Vector3d& half) {
   std::vector<cut::TriangleMesh> result;
   for (std::size_t i = 0; i + 1 < path.size(); ++i)
-    result.push_back(scenes::swept({path[i] - half(i), path[i] + half(i)},
-                                   {path[i + 1] - half(i + 1), path[i + 1] + half(i + 1)}));
+    result.push_back(
+        scenes::swept({path[i] - half, path[i] + half}, {path[i + 1] - half, path[i + 1] + half}));
   return result;
 }
+
+Progressive round_corner(std::size_t cells, const Vector3d& half) {
+  scenes::Path path;
+  for (std::size_t i = 0; i <= step_count; ++i) {
+    // A little more than a quarter turn, to begin and end outside of the sheet.
+    const double part = static_cast<double>(i) / static_cast<double>(step_count);
+    const double radius = 12.2 + 0.4 * scenes::circle_point(1.3 * part).y();
+    const Eigen::Vector2d p = radius * scenes::circle_point(0.26 * part - 0.005);
+    path.emplace_back(p.x(), p.y(), 0);
+  }
+  return {sheet(cells), sweeps(on_sheet(path, cells), half)};
+}
+
+const Vector3d leaning{0.19, -0.23, 1};
 
 std::size_t count_pieces(const cut::TriangleMesh& mesh) {
   std::vector<std::uint32_t> parent(mesh.positions.size());
@@ -67,20 +75,11 @@ Progressive across_sheet(std::size_t cells) {
   const auto side = static_cast<double>(cells);
   const scenes::Path path = scenes::wave_path({-0.01 * side, 0.31 * side, 0}, {1.01 * side, 0.67 * side, 0},
                                               {0, 0.08 * side, 0}, 1.3, step_count);
-  return {sheet(cells), sweeps(on_sheet(path, cells), 0.1 * side)};
+  return {sheet(cells), sweeps(on_sheet(path, cells), 0.1 * side * leaning)};
 }
 
-Progressive round_corner(std::size_t cells) {
-  scenes::Path path;
-  for (std::size_t i = 0; i <= step_count; ++i) {
-    // A little more than a quarter turn, to begin and end outside of the sheet.
-    const double part = static_cast<double>(i) / static_cast<double>(step_count);
-    const double radius = 12.2 + 0.4 * scenes::circle_point(1.3 * part).y();
-    const Eigen::Vector2d p = radius * scenes::circle_point(0.26 * part - 0.005);
-    path.emplace_back(p.x(), p.y(), 0);
-  }
-  return {sheet(cells), sweeps(on_sheet(path, cells), 2)};
-}
+Progressive round_corner_upright(std::size_t cells) { return round_corner(cells, {0, 0, 2}); }
+Progressive round_corner_leaning(std::size_t cells) { return round_corner(cells, 2 * leaning); }
 
 OneShot wave_across(std::size_t cells) {
   const auto side = static_cast<double>(cells);

@@ -20,11 +20,14 @@ struct Progressive {
   std::vector<cut::TriangleMesh> steps;
 };
 
-/// From one side of the sheet to the other: the finer the mesh, the more triangles each quad meets.
-Progressive across_sheet(std::size_t cells);
 /// Round a corner of the sheet, 12 cells away: each quad meets the same number of triangles in every sheet of
-/// 20 × 20 cells or more.
-Progressive round_corner(std::size_t cells);
+/// 20 × 20 cells or more. The blade stands upright, so that the cut keeps its x and y to the last bit, which
+/// helps programs that round; or it leans to one side.
+Progressive round_corner_upright(std::size_t cells);
+Progressive round_corner_leaning(std::size_t cells);
+/// From one side of the sheet to the other, blade leaning: the finer the mesh, the more triangles each quad
+/// meets.
+Progressive across_sheet(std::size_t cells);
 
 /// A ribbon of 128 triangles across the sheet, cut at once. Leaves two pieces.
 struct OneShot {

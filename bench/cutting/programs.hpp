@@ -5,8 +5,8 @@
 
 namespace cutting {
 
-/// libcut: `Cutter::cut` with its render buffers and change set. The boxes of the broad phase are built in
-/// the first step; a one-shot cut counts `HybridMesh::build` and the boxes.
+/// libcut: `Cutter::cut` with its render buffers and change set. The tree of the broad phase
+/// is built in the second step; a one-shot cut counts `HybridMesh::build`.
 void libcut_steps(const Progressive& experiment, StepsResult& result);
 void libcut_once(const OneShot& experiment, OneShotResult& result);
 
