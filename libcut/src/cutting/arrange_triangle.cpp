@@ -92,6 +92,8 @@ bool differs_from_before(const TriangleWork& work) {
   using Ends = std::pair<LatticePoint, LatticePoint>;
   std::vector<Ends> now;
   std::vector<Ends> then;
+  now.reserve(work.graph.edges.size());
+  then.reserve(work.before.edges.size());
   for (const GraphEdge& e : work.graph.edges)
     now.push_back(std::minmax(work.graph.points[e.from], work.graph.points[e.to]));
   for (const CutEdge& e : work.before.edges)

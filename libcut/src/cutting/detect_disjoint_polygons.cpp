@@ -72,6 +72,7 @@ DisjointPolygons detect_disjoint_polygons(const TriangleWork& work) {
   arrangement = canonical(work, result.graph_edge);
 
   std::vector<LatticePoint> points;
+  points.reserve(arrangement.nodes.size());
   for (const ArrangementNode& n : arrangement.nodes) points.push_back(n.point);
   std::vector<lattice::FaceEdge> border;
   std::vector<Index> border_polygon;  // in `before`
@@ -81,6 +82,7 @@ DisjointPolygons detect_disjoint_polygons(const TriangleWork& work) {
       border_polygon.push_back(work.old_section_polygons[i][k]);
     }
   std::vector<lattice::FaceEdge> inner;
+  inner.reserve(arrangement.edges.size());
   for (const CutEdge& e : arrangement.edges) inner.push_back({e.from, e.to});
   lattice::Faces faces = lattice::find_faces(points, border, inner);
 
