@@ -384,7 +384,7 @@ class TreeCore {
     to.ids()[end] = id;
     Value& value = from.values()[at];
     ::new (static_cast<void*>(to.values() + end)) Value(std::move(value));
-    value.~Value();
+    value.~Value();  // NOLINT(bugprone-use-after-move): what was moved from is destroyed
     slots_[id].leaf = to_index;
     slots_[id].position = end;
   }
