@@ -79,9 +79,9 @@ class EndpointMerger {
     std::optional<std::uint32_t> best;
     bool best_recent = false;
     double best_distance = 0;
-    const auto consider = [&](std::uint32_t n, LatticePoint from, bool recent) {
+    const auto consider = [&](std::uint32_t n, LatticePoint from, bool recent, double reach) {
       const double distance = work_.metric.length(p, from);
-      if (distance > (recent ? context_.distances.cut : context_.distances.node)) return;
+      if (distance > reach) return;
       if (best && (best_recent > recent || (best_recent == recent && best_distance <= distance))) return;
       if (!visible(p, point(n), work_.before.edges, [&](std::uint32_t i) { return point(i); })) return;
       best = n;
@@ -89,14 +89,14 @@ class EndpointMerger {
       best_distance = distance;
     };
     for (const std::uint32_t n : nodes_.of(polygon))
-      consider(n, point(n), context_.recent(work_.before.nodes[n].stamp));
+      consider(n, point(n), context_.recent(work_.before.nodes[n].stamp), reach(n));
     const auto& centres = context_.centres.inside;
     for (auto c =
              std::lower_bound(centres.begin(), centres.end(), ClusterCentres::Inside{work_.ancestor, {}, {}},
                               [](const auto& l, const auto& r) { return l.ancestor < r.ancestor; });
          c != centres.end() && c->ancestor == work_.ancestor; ++c)
       for (const std::uint32_t n : nodes_.of(polygon))
-        if (point(n) == c->node) consider(n, c->detected, true);
+        if (point(n) == c->node) consider(n, c->detected, true, context_.same_place());
     return best;
   }
 

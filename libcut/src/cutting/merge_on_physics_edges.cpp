@@ -26,30 +26,34 @@ struct Target {
   std::int32_t t;
   bool recent;
   std::int32_t node;  ///< where that node is
+  double reach;
 };
 
 std::vector<Target> targets_of(const HybridMesh& mesh, AncestorEdgeId edge, const CutContext& context) {
   const auto& ends = mesh.ancestors.edges[edge.index()].nodes;
-  std::vector<Target> targets{
-      {0, context.recent(mesh.node_stamps[ends[0].index()]), 0},
-      {lattice_size, context.recent(mesh.node_stamps[ends[1].index()]), lattice_size}};
+  std::vector<Target> targets;
+  const auto add_node = [&](std::int32_t t, std::uint32_t stamp) {
+    const bool recent = context.recent(stamp);
+    targets.push_back({t, recent, t, recent ? context.distances.cut : context.distances.node});
+  };
+  add_node(0, mesh.node_stamps[ends[0].index()]);
+  add_node(lattice_size, mesh.node_stamps[ends[1].index()]);
   if (const EdgeState* state = mesh.edge_state(edge))
-    for (const BoundaryNode& n : state->nodes) targets.push_back({n.t, context.recent(n.stamp), n.t});
+    for (const BoundaryNode& n : state->nodes) add_node(n.t, n.stamp);
   const auto& centres = context.centres.on_edges;
   for (auto c = std::lower_bound(centres.begin(), centres.end(), ClusterCentres::OnEdge{edge, 0, 0});
        c != centres.end() && c->edge == edge; ++c)
-    targets.push_back({c->detected, true, c->node});
+    targets.push_back({c->detected, true, c->node, context.same_place()});
   return targets;
 }
 
 /// Sends a point to the nearest recent node within δc, else to the nearest within δn. `unit` is the length of
 /// a lattice unit.
-bool merge_to_node(EdgePoint& point, const std::vector<Target>& targets, double unit,
-                   const CutContext& context) {
+bool merge_to_node(EdgePoint& point, const std::vector<Target>& targets, double unit) {
   const Target* best = nullptr;
   for (const Target& target : targets) {
     const std::int32_t distance = std::abs(target.t - point.t);
-    if (unit * distance > (target.recent ? context.distances.cut : context.distances.node)) continue;
+    if (unit * distance > target.reach) continue;
     if (best != nullptr && std::tuple(!best->recent, std::abs(best->t - point.t), best->t) <=
                                std::tuple(!target.recent, distance, target.t))
       continue;
@@ -68,7 +72,7 @@ bool settle(HybridMesh& mesh, EdgePoint* begin, EdgePoint* end, const CutContext
   std::vector<Target> targets = targets_of(mesh, edge, context);
   std::vector<EdgePoint*> fresh;
   for (EdgePoint* p = begin; p != end; ++p)
-    if (!merge_to_node(*p, targets, unit, context)) fresh.push_back(p);
+    if (!merge_to_node(*p, targets, unit)) fresh.push_back(p);
   for (std::size_t i = 0; i < fresh.size();) {
     std::size_t last = i;
     while (last + 1 < fresh.size() && unit * (fresh[last + 1]->t - fresh[i]->t) <= context.distances.node)
@@ -81,9 +85,9 @@ bool settle(HybridMesh& mesh, EdgePoint* begin, EdgePoint* end, const CutContext
                                                 });
     i = last + 1;
     insert_boundary_node(edge_state_for_writing(mesh, edge), centre->t, context.this_cut);
-    targets.push_back({centre->t, false, centre->t});
+    targets.push_back({centre->t, false, centre->t, context.distances.node});
   }
-  for (EdgePoint* p = begin; p != end; ++p) merge_to_node(*p, targets, unit, context);
+  for (EdgePoint* p = begin; p != end; ++p) merge_to_node(*p, targets, unit);
   return !fresh.empty();
 }
 

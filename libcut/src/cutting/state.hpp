@@ -92,6 +92,11 @@ struct CutContext {
   std::uint32_t this_cut;      ///< number of this call, for stamps
   std::uint32_t previous_cut;  ///< number of the cutter's previous call; 0: none
 
+  /// How near a line end must come to where an earlier one was detected to be taken for the same. Not a merge
+  /// distance: with one, a blade that goes on in small steps would drag the end of its cut along instead of
+  /// cutting.
+  [[nodiscard]] double same_place() const { return distances.edge * 1e-3; }
+
   /// True for nodes that attract line ends from δc.
   [[nodiscard]] bool recent(std::uint32_t stamp) const { return stamp != 0 && stamp == previous_cut; }
 };
