@@ -147,25 +147,6 @@ TEST_CASE("a blade that goes on in tiny steps keeps its cut in one line and wher
         doctest::Approx(std::min(below, 9 - below)).epsilon(3 * s.cutter.distances().node / 4));
 }
 
-TEST_CASE("a blade that goes along a curve inside one triangle, in tiny steps, leaves that curve") {
-  Session s(scenes::grid(1, 1, 10.0));
-  const auto on_curve = [](double part) {
-    const double angle = 3 * part;
-    return Vector3(6.5 + 2 * std::cos(angle), 2.5 + 1.5 * std::sin(angle), 0);
-  };
-  const int steps = 200;
-  for (int i = 0; i < steps; ++i) s.cut(wall({on_curve(i / 200.0), on_curve((i + 1) / 200.0)}));
-  std::size_t nodes = 0;
-  double furthest = 0;
-  for (const cut::Arrangement& a : s.mesh.arrangements) {
-    nodes += a.nodes.size() - a.first_inner_node();
-    for (std::size_t n = a.first_inner_node(); n < a.nodes.size(); ++n)
-      furthest = std::max(furthest, static_cast<double>(a.nodes[n].point.y) / cut::lattice_size);
-  }
-  CHECK(nodes >= 8);
-  CHECK(furthest > 0.3);  // the top of the curve is at 0.4 of the triangle's height
-}
-
 TEST_CASE("pieces are cut again and again down to slivers") {
   Session s(scenes::grid(1, 1), {2e-4, 1e-4, 5e-5});
   for (int i = 0; i < 60; ++i) {
