@@ -105,7 +105,9 @@ class BoundRelation : public OneByOne<BoundRelation<R, T, D>, T, D> {
   [[nodiscard]] std::uint32_t may_and_must(const Rows<T, D>& rows) const {
     if (!valid_) return 0;
     if constexpr (R == Relation::intersects || R == Relation::covered_by) {
-      return reaching_and_covered(rows, q_.min, q_.max);
+      // A query that reaches one child only is rarely big enough to cover it.
+      const std::uint32_t may = reaching(rows, 3, q_.min, q_.max);
+      return (may & (may - 1)) == 0 ? may : may | covered(rows, 3, q_.min, q_.max) << 4;
     }
     return may_mask(rows, 3);
   }

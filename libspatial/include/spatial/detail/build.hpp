@@ -132,27 +132,26 @@ class Build {
   }
 
   // Distributes from[begin, end) over to[begin, end): lower, centric, higher. `ends` are where the first two
-  // end. Every entry is written to all three places and counted in one, since where it belongs cannot be
-  // predicted; the centric ones wait in `from`, in places that have been read already.
-  static void partition(Entry* from, Entry* to, std::size_t begin, std::size_t end, const Split<T, D>& at,
-                        std::size_t (&ends)[2]) {
-    std::size_t low = begin;
-    std::size_t high = end;
-    std::size_t middle = begin;
+  // end. Without branches, since where an entry belongs cannot be predicted.
+  void partition(const Entry* from, Entry* to, std::size_t begin, std::size_t end, const Split<T, D>& at,
+                 std::size_t (&ends)[2]) {
+    std::size_t counts[3] = {0, 0, 0};
+    if (sides_.size() < end - begin) sides_.resize(end - begin);
+    std::uint8_t* sides = sides_.data();
+    std::size_t low = 0;
+    std::size_t high = 0;
     for (std::size_t i = begin; i < end; ++i) {
-      const Entry entry = from[i];
-      const bool is_lower = entry.box.max[at.axis] <= at.plane;
-      const bool is_higher = !is_lower && entry.box.min[at.axis] >= at.plane;
-      to[low] = entry;
-      low += static_cast<std::size_t>(is_lower);
-      to[high - 1] = entry;
-      high -= static_cast<std::size_t>(is_higher);
-      from[middle] = entry;
-      middle += static_cast<std::size_t>(!is_lower && !is_higher);
+      const Side side = side_of(from[i].box.min[at.axis], from[i].box.max[at.axis], at.plane);
+      sides[i - begin] = static_cast<std::uint8_t>(side);
+      low += static_cast<std::size_t>(side == lower);
+      high += static_cast<std::size_t>(side == higher);
     }
-    for (std::size_t i = begin; i < middle; ++i) to[low + (i - begin)] = from[i];
-    ends[0] = low;
-    ends[1] = high;
+    counts[lower] = begin;
+    counts[centric] = begin + low;
+    counts[higher] = end - high;
+    ends[0] = begin + low;
+    ends[1] = end - high;
+    for (std::size_t i = begin; i < end; ++i) to[counts[sides[i - begin]]++] = from[i];
   }
 
   // Tight boxes, from the leaves upwards: parents come before their children in `nodes`.
@@ -184,6 +183,7 @@ class Build {
   }
 
   typename Core::AllocatorType allocator_;
+  std::vector<std::uint8_t> sides_;
 };
 
 }  // namespace spatial::detail

@@ -139,39 +139,6 @@ std::uint32_t reaching(const Rows<T, D>& rows, std::size_t count, const Point<T,
   return result;
 }
 
-template <class T, std::size_t D>
-std::uint32_t covered(const Rows<T, D>& rows, std::size_t count, const Point<T, D>& low,
-                      const Point<T, D>& high);
-
-/// Of up to four boxes, those that touch [low, high] and, four bits higher, those that it covers. All four
-/// lanes must be readable; the caller drops the bits of those that do not count.
-template <class T, std::size_t D>
-std::uint32_t reaching_and_covered(const Rows<T, D>& rows, const Point<T, D>& low, const Point<T, D>& high) {
-#ifdef SPATIAL_WIDE
-  if constexpr (Pack<T>::width == 4 || Pack<T>::width == 2) {
-    using P = Pack<T>;
-    using V = typename P::V;
-    std::uint32_t result = 0;
-    for (std::size_t i = 0; i < 4; i += P::width) {
-      typename P::M reach{};
-      typename P::M cover{};
-      for (std::size_t a = 0; a < D; ++a) {
-        V least, greatest;
-        std::memcpy(&least, rows.first + a * rows.stride + i, sizeof(V));
-        std::memcpy(&greatest, rows.first + (D + a) * rows.stride + i, sizeof(V));
-        const auto r = (least <= high[a]) & (greatest >= low[a]);
-        const auto c = (least >= low[a]) & (greatest <= high[a]);
-        reach = a == 0 ? r : reach & r;
-        cover = a == 0 ? c : cover & c;
-      }
-      result |= P::bits(reach) << i | P::bits(cover) << (4 + i);
-    }
-    return result;
-  }
-#endif
-  return reaching(rows, 4, low, high) | covered(rows, 4, low, high) << 4;
-}
-
 /// The boxes with low <= min and max <= high on every axis. @pre count <= mask_bits
 template <class T, std::size_t D>
 std::uint32_t covered(const Rows<T, D>& rows, std::size_t count, const Point<T, D>& low,

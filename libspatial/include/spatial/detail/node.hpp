@@ -27,7 +27,8 @@ struct ChildRef {
   friend constexpr bool operator==(ChildRef, ChildRef) = default;
 };
 
-/// On a cache line of its own, with the rows first: a query reads these and the children, an insertion the rest.
+/// On a cache line of its own, with the rows first: a query reads these and the children, an insertion the
+/// rest.
 template <class T, std::size_t D>
 struct alignas(64) Node {
   static constexpr std::size_t lanes = 4;  ///< three children, and one that is always empty

@@ -198,6 +198,8 @@ std::vector<Found<typename Metric::S>> first_of(const Core& core, const Metric& 
       const auto& leaf = core.leaf(top.place.index());
       for (std::uint32_t begin = 0; begin < leaf.count; begin += mask_bits) {
         const std::uint32_t count = leaf.count - begin < mask_bits ? leaf.count - begin : mask_bits;
+        if (best.full() && !(top.key < best.worst()))
+          break;  // nothing here can be nearer than the leaf itself
         metric.keys(rows_of<Core>(leaf).from(begin), count, keys);
         std::uint32_t near = below(keys, count, best.worst(), !best.full());
         for (; near != 0; near &= near - 1) {
