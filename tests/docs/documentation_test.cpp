@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -114,9 +115,13 @@ TEST_CASE("docs/data_model.md lists the rules that validate reports, and no othe
   };
   for (const auto& entry : fs::directory_iterator(root / "libcut/src/validate"))
     collect(text_of(entry.path()), std::regex(R"re((?:add\(|fail\(|rule = )\s*"([a-z_]+)")re"), reported);
-  collect(text_of(root / "docs/data_model.md"), std::regex(R"(\n\| `([a-z_]+)` \|)"), listed);
+  const std::string page = text_of(root / "docs/data_model.md");
+  collect(page.substr(page.find("## Rules")), std::regex(R"(\n\| `([a-z_]+)` \|)"), listed);
+  std::vector<std::string> odd;
+  std::set_symmetric_difference(reported.begin(), reported.end(), listed.begin(), listed.end(),
+                                std::back_inserter(odd));
+  for (const std::string& rule : odd) FAIL_CHECK(rule);
   CHECK(reported.size() > 10);
-  CHECK(reported == listed);
 }
 
 TEST_CASE("the drawings in docs/pictures are what comes out") {

@@ -1,6 +1,7 @@
 #include "cutting/clip_to_polygon.hpp"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 #include "lattice/intersection.hpp"
@@ -63,8 +64,8 @@ void clip_to_polygon(const Arrangement& arrangement, std::uint32_t polygon, Latt
     if (end.point == d) end = {d, LineEnd::On::node, e.to};
     crossings.push_back({s, end});
   }
-  std::stable_sort(crossings.begin(), crossings.end(),
-                   [](const Crossing& l, const Crossing& r) { return l.s < r.s; });
+  std::sort(crossings.begin(), crossings.end(),
+            [](const Crossing& l, const Crossing& r) { return std::tie(l.s, l.end) < std::tie(r.s, r.end); });
 
   // Pieces between crossings are inside or outside as a whole; neighbouring inside pieces are one line.
   const Crossing* start = nullptr;
