@@ -14,8 +14,8 @@ namespace {
 using Box = spatial::Box<float, 2>;
 
 Box box_at(int i) {
-  const float x = float(i * 7919 % 1000);
-  const float y = float(i * 104729 % 997);
+  const float x = float(i * 7919LL % 1000);
+  const float y = float(i * 104729LL % 997);
   return {{x, y}, {x + 1, y + 1}};
 }
 

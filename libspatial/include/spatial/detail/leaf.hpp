@@ -30,7 +30,10 @@ struct Leaf {
   static constexpr std::size_t overread = 64;
   static constexpr std::size_t alignment = alignof(Value) > 16 ? alignof(Value) : 16;
 
-  static constexpr std::size_t ids_offset(std::size_t cap) { return 2 * D * cap * sizeof(T); }
+  static constexpr std::size_t ids_offset(std::size_t cap) {
+    constexpr std::size_t step = alignof(std::uint32_t);  // rows of small integers may end between two
+    return (2 * D * cap * sizeof(T) + step - 1) / step * step;
+  }
   static constexpr std::size_t values_offset(std::size_t cap) {
     const std::size_t end = ids_offset(cap) + cap * sizeof(std::uint32_t);
     return (end + alignof(Value) - 1) / alignof(Value) * alignof(Value);
