@@ -6,8 +6,8 @@
 #include <unordered_set>
 #include <utility>
 
-#include "cutting/components.hpp"
 #include "cutting/edge_state.hpp"
+#include "lattice/components.hpp"
 
 namespace cut {
 namespace {
@@ -164,7 +164,7 @@ class VertexCopier {
 
   /// Gives each component of angles at one node its vertex.
   void assign(std::span<const Angle> group) {
-    Components components(group.size());
+    lattice::Components components(group.size());
     std::vector<std::tuple<AncestorEdgeId, Index, Index>> sides;
     for (Index i = 0; i < group.size(); ++i)
       for (std::size_t which = 0; which < 2; ++which)

@@ -1,12 +1,11 @@
 #include "cutting/copy_physics_nodes.hpp"
 
 #include <algorithm>
-#include <map>
 #include <tuple>
 #include <utility>
 
-#include "cutting/components.hpp"
 #include "cutting/edge_state.hpp"
+#include "lattice/components.hpp"
 
 namespace cut {
 namespace {
@@ -29,8 +28,8 @@ struct Fragments {
 };
 
 /// Joins fragments that share an uncut section of an edge ending at the node.
-Components connect(const HybridMesh& mesh, AncestorNodeId node, const Fragments& fragments) {
-  Components components(fragments.first.back());
+lattice::Components connect(const HybridMesh& mesh, AncestorNodeId node, const Fragments& fragments) {
+  lattice::Components components(fragments.first.back());
   std::vector<Index> polygons;  // per section, on the first side
   for (std::size_t a = 0; a < fragments.around.size(); ++a) {
     const AncestorId t = fragments.around[a];
@@ -74,7 +73,7 @@ struct Copy {
 
 bool copy_physics_node(HybridMesh& mesh, AncestorNodeId node, ChangeLog& log) {
   const Fragments fragments(mesh, node);
-  Components components = connect(mesh, node, fragments);
+  lattice::Components components = connect(mesh, node, fragments);
   std::vector<Copy> copies;
   std::vector<Index> copy_of_root(fragments.first.back(), HybridMesh::none);
   const auto for_each_fragment = [&](const auto& visit) {

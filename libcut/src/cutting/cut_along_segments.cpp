@@ -1,9 +1,9 @@
 #include "cutting/cut_along_segments.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 #include "cutting/work_graph.hpp"
+#include "lattice/components.hpp"
 #include "lattice/orientation.hpp"
 
 namespace cut {
@@ -53,20 +53,15 @@ void discard_outside(TriangleWork& work) {
   const auto rays = old_rays(work);
   // New edges that meet in a node without old edges lie in the same polygon: it is known if any of them
   // reaches an old edge.
-  std::vector<Index> parent(points.size());
-  std::iota(parent.begin(), parent.end(), Index{0});
-  const auto root = [&](Index n) {
-    while (parent[n] != n) n = parent[n] = parent[parent[n]];
-    return n;
-  };
+  lattice::Components groups(points.size());
   for (const GraphEdge& e : edges)
-    if (e.is_new && rays[e.from].empty() && rays[e.to].empty()) parent[root(e.from)] = root(e.to);
+    if (e.is_new && rays[e.from].empty() && rays[e.to].empty()) groups.join(e.from, e.to);
   std::vector<Index> polygon_of_group(points.size(), none);
   for (const GraphEdge& e : edges) {
     if (!e.is_new || rays[e.from].empty() == rays[e.to].empty()) continue;
     const Index old = rays[e.from].empty() ? e.to : e.from;
     const Index free = rays[e.from].empty() ? e.from : e.to;
-    polygon_of_group[root(free)] = polygon_in_direction(rays[old], points[free] - points[old]);
+    polygon_of_group[groups.root(free)] = polygon_in_direction(rays[old], points[free] - points[old]);
   }
   const auto outside = [&](const GraphEdge& e) {
     if (!e.is_new) return false;
@@ -76,7 +71,7 @@ void discard_outside(TriangleWork& work) {
     else if (!rays[e.to].empty())
       polygon = polygon_in_direction(rays[e.to], points[e.from] - points[e.to]);
     else
-      polygon = polygon_of_group[root(e.from)];
+      polygon = polygon_of_group[groups.root(e.from)];
     return polygon != none && polygon != e.left;
   };
   edges.erase(std::remove_if(edges.begin(), edges.end(), outside), edges.end());

@@ -6,7 +6,7 @@
 
 namespace cut {
 
-/// @param polygon_of_edge polygons are found in GraphEdge::left, which new edges carry on both sides
+/// A new edge names the polygon of its line on both sides (GraphEdge::left, right).
 void cut_along_segments(TriangleWork& work);
 
 /// Marks the sections of side i between two nodes of it as cut, where they belong to `polygon`.

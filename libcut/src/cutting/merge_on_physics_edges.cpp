@@ -93,8 +93,8 @@ bool settle(HybridMesh& mesh, EdgePoint* begin, EdgePoint* end, const CutContext
 
 }  // namespace
 
-std::vector<AncestorEdgeId> merge_on_physics_edges(HybridMesh& mesh, std::vector<TriangleWork>& works,
-                                                   const CutContext& context, ClusterCentres& next_centres) {
+void merge_on_physics_edges(HybridMesh& mesh, std::vector<TriangleWork>& works, const CutContext& context,
+                            ClusterCentres& next_centres) {
   const AncestorMesh& ancestors = mesh.ancestors;
   const auto edge_point = [&](const TriangleWork& work, const LineEnd& end) {
     const std::size_t i = edge_of(end.point);
@@ -155,7 +155,6 @@ std::vector<AncestorEdgeId> merge_on_physics_edges(HybridMesh& mesh, std::vector
   }
   std::inplace_merge(works.begin(), works.begin() + static_cast<std::ptrdiff_t>(with_lines), works.end(),
                      [](const TriangleWork& a, const TriangleWork& b) { return a.ancestor < b.ancestor; });
-  return changed;
 }
 
 }  // namespace cut

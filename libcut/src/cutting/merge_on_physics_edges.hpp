@@ -15,8 +15,8 @@ namespace cut {
 /// δn, else a new boundary node for all points within δn. Adds works for neighbours whose edge has a new
 /// boundary node.
 /// @param next_centres gets what the next cut is to remember of the points on edges
-/// @return the edges with new boundary nodes, sorted. O(ends · log), and the nodes of each edge.
-std::vector<AncestorEdgeId> merge_on_physics_edges(HybridMesh& mesh, std::vector<TriangleWork>& works,
-                                                   const CutContext& context, ClusterCentres& next_centres);
+/// O(ends · log), and the nodes of each edge.
+void merge_on_physics_edges(HybridMesh& mesh, std::vector<TriangleWork>& works, const CutContext& context,
+                            ClusterCentres& next_centres);
 
 }  // namespace cut

@@ -4,11 +4,13 @@
 ///   detect_cutting_lines    works with lines, line ends where the cutter meets the triangle
 ///   merge_cut_endpoints     line ends become nodes, points on physics edges, points on cuts, or stay free
 ///   merge_on_physics_edges  points on physics edges become boundary nodes, the same for both sides
-///   arrange_triangle        lines become edges of a planar graph: merge_existing_nodes,
-///   join_edge_intersections,
-///                           cut_along_segments, merge_adjacent_edges
-///   detect_disjoint_polygons  the graph's faces become fragments: physics triangles are copied
-///   copy_nodes              physics nodes, springs and render vertices follow
+///   arrange_triangle        lines become edges of a planar graph: merge_on_cut_edges,
+///                           merge_existing_nodes, lattice::insert_edges (§4.4), cut_along_segments,
+///                           merge_adjacent_edges
+///   weld_slivers            the graph's faces, crumbs welded: detect_disjoint_polygons
+///   copy_physics_triangles  each face becomes a fragment
+///   copy_physics_nodes      physics nodes and springs follow
+///   copy_boundary_nodes     render vertices follow, then triangulate_polygons
 #pragma once
 #include <array>
 #include <cstdint>

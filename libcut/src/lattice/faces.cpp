@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "lattice/components.hpp"
 #include "lattice/intersection.hpp"
 #include "lattice/orientation.hpp"
 
@@ -99,15 +100,11 @@ Walks walk_all(const HalfEdges& g, const Usable& usable) {
 
 /// Component of each node: nodes joined by edges have the same.
 std::vector<Index> components(const HalfEdges& g) {
-  std::vector<Index> parent(g.points.size());
-  std::iota(parent.begin(), parent.end(), Index{0});
-  const auto root = [&](Index x) {
-    while (parent[x] != x) x = parent[x] = parent[parent[x]];
-    return x;
-  };
-  for (const FaceEdge& e : g.edges) parent[root(e.from)] = root(e.to);
-  for (Index n = 0; n < parent.size(); ++n) parent[n] = root(n);
-  return parent;
+  Components joined(g.points.size());
+  for (const FaceEdge& e : g.edges) joined.join(e.from, e.to);
+  std::vector<Index> component(g.points.size());
+  for (Index n = 0; n < component.size(); ++n) component[n] = joined.root(n);
+  return component;
 }
 
 /// Where an upward edge (low to high) meets the horizontal line just above y: x as a fraction, then the

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "cut/hybrid_mesh.hpp"
+#include "lattice/components.hpp"
 #include "mesh/vector3.hpp"
 
 namespace cut {
@@ -105,26 +106,19 @@ Error too_many_sides(const TriangleMesh& mesh, const Side* begin, const Side* en
           begin->triangle};
 }
 
-/// Root of x in a union-find forest; halves the path on its way.
-Index find_root(std::vector<Index>& parent, Index x) {
-  while (parent[x] != x) x = parent[x] = parent[parent[x]];
-  return x;
-}
-
 bool smaller_position(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::tie(a.x(), a.y(), a.z()) < std::tie(b.x(), b.y(), b.z());
 }
 
 /// Gives each fan of triangles around an input node a node of its own. Wedge 3·t + k is corner k of input
 /// triangle t. Returns the node of each wedge; appends the additional nodes to `ancestors`.
-std::vector<Index> split_fans(const TriangleMesh& mesh, std::vector<Index>& wedge_parent,
-                              AncestorMesh& ancestors) {
+std::vector<Index> split_fans(const TriangleMesh& mesh, lattice::Components& fans, AncestorMesh& ancestors) {
   const std::size_t wedges = 3 * mesh.triangles.size();
   std::vector<Index> node_of_root(wedges, HybridMesh::none);
   std::vector<std::uint8_t> taken(mesh.positions.size(), 0);
   std::vector<Index> node_of(wedges);
   for (Index w = 0; w < wedges; ++w) {
-    const Index root = find_root(wedge_parent, w);
+    const Index root = fans.root(w);
     Index& node = node_of_root[root];
     if (node == HybridMesh::none) {
       const Index input = mesh.triangles[w / 3][w % 3];
@@ -205,8 +199,7 @@ Result<HybridMesh> HybridMesh::build(const TriangleMesh& input) {
   const Sides sides = collect_sides(input);
 
   // Edges: groups of sides with the same two nodes.
-  std::vector<Index> wedge_parent(3 * input.triangles.size());
-  std::iota(wedge_parent.begin(), wedge_parent.end(), Index{0});
+  lattice::Components fans(3 * input.triangles.size());  // of wedges
   const auto wedge_at = [&](const Side& s, Index node) {
     return 3 * s.triangle + (input.triangles[s.triangle][s.corner] == node
                                  ? s.corner
@@ -230,9 +223,7 @@ Result<HybridMesh> HybridMesh::build(const TriangleMesh& input) {
       if (paired) {
         edge_sides.back()[1] = 3 * a[1].triangle + a[1].corner;
         edge_of_side[3 * a[1].triangle + a[1].corner] = edge;
-        for (const Index node : {low, a->other})
-          wedge_parent[find_root(wedge_parent, wedge_at(a[0], node))] =
-              find_root(wedge_parent, wedge_at(a[1], node));
+        for (const Index node : {low, a->other}) fans.join(wedge_at(a[0], node), wedge_at(a[1], node));
       }
       a = end;
     }
@@ -243,7 +234,7 @@ Result<HybridMesh> HybridMesh::build(const TriangleMesh& input) {
   ancestors.rest_positions = input.positions;
   ancestors.input_node.resize(input.positions.size());
   std::iota(ancestors.input_node.begin(), ancestors.input_node.end(), Index{0});
-  const std::vector<Index> node_of = split_fans(input, wedge_parent, ancestors);
+  const std::vector<Index> node_of = split_fans(input, fans, ancestors);
 
   ancestors.triangles.resize(input.triangles.size());
   ancestors.input_corner.resize(input.triangles.size());

@@ -7,27 +7,12 @@
 #include <numeric>
 #include <utility>
 
+#include "lattice/components.hpp"
+
 namespace cut {
 namespace {
 
 using Index = std::uint32_t;
-
-Index find_root(std::vector<Index>& parent, Index x) {
-  while (parent[x] != x) x = parent[x] = parent[parent[x]];
-  return x;
-}
-
-void join(std::vector<Index>& parent, Index a, Index b) {
-  a = find_root(parent, a);
-  b = find_root(parent, b);
-  parent[std::max(a, b)] = std::min(a, b);
-}
-
-std::vector<Index> singletons(std::size_t count) {
-  std::vector<Index> parent(count);
-  std::iota(parent.begin(), parent.end(), Index{0});
-  return parent;
-}
 
 Eigen::Vector3d rest_position(const HybridMesh& mesh, const RenderVertex& v) {
   const Ancestor& ancestor =
@@ -47,13 +32,13 @@ std::pair<Index, Index> side(const RenderTriangle& t, std::size_t i) {
 }
 
 /// Numbers the components by their first triangle and adds up areas, triangles and vertices.
-void collect(const HybridMesh& mesh, std::vector<Index>& parent, Pieces& result) {
+void collect(const HybridMesh& mesh, lattice::Components& vertices, Pieces& result) {
   const Buffers& b = mesh.buffers;
-  std::vector<Index> piece_of_root(parent.size(), Pieces::none);
+  std::vector<Index> piece_of_root(mesh.buffers.render_vertices.size(), Pieces::none);
   for (std::size_t i = 0; i < b.render_triangles.size(); ++i) {
     const RenderTriangle& t = b.render_triangles[i];
     if (!t.triangle.valid()) continue;
-    Index& piece = piece_of_root[find_root(parent, t.vertices[0].value)];
+    Index& piece = piece_of_root[vertices.root(t.vertices[0].value)];
     if (piece == Pieces::none) {
       piece = static_cast<Index>(result.list.size());
       result.list.emplace_back();
@@ -85,24 +70,25 @@ void count_sides(const HybridMesh& mesh, Pieces& result) {
   for (const RenderTriangle& t : mesh.buffers.render_triangles)
     for (std::size_t i = 0; t.triangle.valid() && i < 3; ++i) sides.push_back(side(t, i));
   std::sort(sides.begin(), sides.end());
-  std::vector<Index> loops = singletons(mesh.buffers.render_vertices.size());
+  lattice::Components loops(mesh.buffers.render_vertices.size());
   std::vector<std::uint8_t> on_boundary(loops.size(), 0);
   for (std::size_t i = 0; i < sides.size();) {
     std::size_t end = i + 1;
     while (end < sides.size() && sides[end] == sides[i]) ++end;
     --result.list[result.of_vertex[sides[i].first]].euler_characteristic;
     if (end - i == 1) {
-      join(loops, sides[i].first, sides[i].second);
+      loops.join(sides[i].first, sides[i].second);
       on_boundary[sides[i].first] = on_boundary[sides[i].second] = 1;
     }
     i = end;
   }
   for (Index v = 0; v < loops.size(); ++v)
-    if (on_boundary[v] != 0 && find_root(loops, v) == v) ++result.list[result.of_vertex[v]].boundary_loops;
+    if (on_boundary[v] != 0 && loops.root(v) == v) ++result.list[result.of_vertex[v]].boundary_loops;
 }
 
 void sort_by_size(Pieces& result) {
-  std::vector<Index> order = singletons(result.list.size());
+  std::vector<Index> order(result.list.size());
+  std::iota(order.begin(), order.end(), Index{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](Index a, Index b) { return result.list[a].rest_area > result.list[b].rest_area; });
   std::vector<Index> rank(order.size());
@@ -124,13 +110,13 @@ Pieces pieces(const HybridMesh& mesh) {
   Pieces result;
   result.of_triangle.assign(b.render_triangles.size(), Pieces::none);
   result.of_vertex.assign(b.render_vertices.size(), Pieces::none);
-  std::vector<Index> parent = singletons(b.render_vertices.size());
+  lattice::Components vertices(b.render_vertices.size());
   for (const RenderTriangle& t : b.render_triangles) {
     if (!t.triangle.valid()) continue;
-    join(parent, t.vertices[0].value, t.vertices[1].value);
-    join(parent, t.vertices[0].value, t.vertices[2].value);
+    vertices.join(t.vertices[0].value, t.vertices[1].value);
+    vertices.join(t.vertices[0].value, t.vertices[2].value);
   }
-  collect(mesh, parent, result);
+  collect(mesh, vertices, result);
   count_sides(mesh, result);
   sort_by_size(result);
   return result;

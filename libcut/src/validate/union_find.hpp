@@ -1,5 +1,6 @@
 /// @file
-/// Disjoint sets of 0 … n-1. In: pairs that belong together. Out: a root for each set.
+/// Disjoint sets of 0 … n-1, of the checker's own: it shares no code with what it checks. In: pairs that
+/// belong together. Out: a root for each set.
 #pragma once
 #include <cstdint>
 #include <numeric>
