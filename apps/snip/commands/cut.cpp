@@ -15,6 +15,7 @@
 #include "snip/command_line.hpp"
 #include "snip/commands/commands.hpp"
 #include "snip/commands/report.hpp"
+#include "snip/merge_distances.hpp"
 #include "snip/mesh_file/mesh_file.hpp"
 #include "snip/rendered_mesh.hpp"
 #include "snip/stats.hpp"
@@ -26,27 +27,9 @@ struct CutOptions {
   std::string cloth;
   std::string cutter;
   std::string out;
-  std::optional<double> merge_cut;
-  std::optional<double> merge_node;
-  std::optional<double> merge_edge;
+  GivenMergeDistances merge;
   std::optional<std::string> stats;
 };
-
-// A distance that is not given follows from the mean edge length, unless another one that is given would
-// then break δc >= δn >= δe: it gives way.
-cut::MergeDistances merge_distances(const CutOptions& options, const cut::HybridMesh& mesh) {
-  cut::MergeDistances distances = cut::default_merge_distances(mesh);
-  if (options.merge_node) distances.node = *options.merge_node;
-  if (options.merge_cut) distances.cut = *options.merge_cut;
-  if (options.merge_edge) distances.edge = *options.merge_edge;
-  if (!options.merge_node) {
-    if (options.merge_edge) distances.node = std::max(distances.node, distances.edge);
-    if (options.merge_cut) distances.node = std::min(distances.node, distances.cut);
-  }
-  if (!options.merge_cut) distances.cut = std::max(distances.cut, distances.node);
-  if (!options.merge_edge) distances.edge = std::min(distances.edge, distances.node);
-  return distances;
-}
 
 Counts physics_counts(const cut::HybridMesh& mesh) {
   const cut::Buffers& buffers = mesh.buffers;
@@ -102,7 +85,7 @@ Result<> run(const CutOptions& options) {
   auto hybrid = cut::HybridMesh::build(to_triangle_mesh(*cloth));
   if (!hybrid) return explain(hybrid.error(), *cloth, options.cloth);
   stopwatch.lap("build");
-  const auto distances = cut::checked(merge_distances(options, *hybrid), *hybrid);
+  const auto distances = complete(options.merge, *hybrid);
   if (!distances) return Error{distances.error().message};
   const Pieces before = find_pieces(cloth->positions, cloth->triangles);
   const Counts physics_before = physics_counts(*hybrid);
@@ -146,12 +129,12 @@ void add_cut_command(CLI::App& app, int& exit_code) {
   command->add_option("CUTTER", options->cutter, "Mesh to cut it with (.obj, .ply, .stl, .off)")->required();
   command->add_option("-o,--output", options->out, "Where the pieces go (.obj, .ply, .stl, .off)")
       ->required();
-  command->add_option("--merge-cut", options->merge_cut,
+  command->add_option("--merge-cut", options->merge.cut,
                       "Merge the ends of a cut with nodes of the previous cut within this distance "
                       "(default: 1/10 of the mean edge length)");
-  command->add_option("--merge-node", options->merge_node,
+  command->add_option("--merge-node", options->merge.node,
                       "... with other nodes within this distance (default: 1/20)");
-  command->add_option("--merge-edge", options->merge_edge,
+  command->add_option("--merge-edge", options->merge.edge,
                       "... with edges within this distance (default: 1/40)");
   command->add_option("--stats", options->stats, "Write pieces, areas, counts and times as JSON");
   command->callback([options, &exit_code] {

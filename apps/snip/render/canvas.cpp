@@ -62,7 +62,7 @@ Canvas::Canvas(std::size_t width, std::size_t height, Colour background, std::si
       nearness_(width_ * height_, -std::numeric_limits<float>::infinity()) {}
 
 void Canvas::mix(std::size_t sample, Colour colour, double opacity) {
-  const auto part = static_cast<int>(opacity * 256 + 0.5);
+  const auto part = static_cast<int>(std::lround(opacity * 256));
   const auto mixed = [part](std::uint8_t below, std::uint8_t above) {
     return static_cast<std::uint8_t>((below * (256 - part) + above * part + 128) / 256);
   };

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "snip/merge_distances.hpp"
 #include "snip/render/camera.hpp"
 #include "snip/result.hpp"
 
@@ -57,8 +58,7 @@ struct MovingBlade {
 };
 
 /// Distances within which cuts are merged (§4, equation 7); those not given are libcut's default.
-struct MergeSettings {
-  std::optional<double> cut, node, edge;
+struct MergeSettings : GivenMergeDistances {
   std::string place;
 };
 

@@ -49,20 +49,6 @@ double area(const Mesh& mesh) {
   return sum;
 }
 
-/// What is not given follows from the cloth, unless another distance that is given would then break the
-/// order.
-Result<cut::MergeDistances> merge_distances(const MergeSettings& given, const cut::HybridMesh& mesh) {
-  cut::MergeDistances distances = cut::default_merge_distances(mesh);
-  distances.edge = given.edge.value_or(distances.edge);
-  distances.node = given.node.value_or(std::max(distances.node, distances.edge));
-  if (!given.node && given.cut) distances.node = std::min(distances.node, *given.cut);
-  if (!given.edge) distances.edge = std::min(distances.edge, distances.node);
-  distances.cut = given.cut.value_or(std::max(distances.cut, distances.node));
-  const auto checked = cut::checked(distances, mesh);
-  if (!checked) return Error{fmt::format("{}: {}", given.place, checked.error().message)};
-  return *checked;
-}
-
 std::size_t in_use(const auto& entries, auto is_used) {
   return static_cast<std::size_t>(std::count_if(entries.begin(), entries.end(), is_used));
 }
@@ -102,8 +88,8 @@ Result<SceneRun> SceneRun::start(const Scene& scene, const std::filesystem::path
 }
 
 Result<> SceneRun::load_cutters(const std::filesystem::path& folder) {
-  const auto distances = merge_distances(scene_.merge, mesh_);
-  if (!distances) return distances.error();
+  const auto distances = complete(scene_.merge, mesh_);
+  if (!distances) return Error{fmt::format("{}: {}", scene_.merge.place, distances.error().message)};
   for (const StaticCutter& cutter : scene_.cutters) {
     const auto mesh = load(cutter.mesh, folder);
     if (!mesh) return mesh.error();
