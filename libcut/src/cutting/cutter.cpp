@@ -30,6 +30,7 @@ struct Cutter::Memory {
   BroadPhase broad_phase;
   std::uint32_t previous_cut = 0;
   ClusterCentres centres;
+  std::vector<DetectedLine> lines;  ///< of the previous call
   StepTimings timings;
 };
 
@@ -120,14 +121,18 @@ Result<Changes> Cutter::cut(HybridMesh& mesh, const TriangleMesh& cutter) {
 
   const CutContext context{memory_->distances, memory_->centres, mesh.cut_count + 1, memory_->previous_cut};
   const double slack = contact_slack(context.distances, cutter);
-  std::vector<TriangleWork> works =
+  auto [works, lines] =
       detect_cutting_lines(mesh, cutter, memory_->broad_phase.candidates(mesh, cutter, slack), slack);
   watch.lap(timings.detect);
 
-  ++mesh.cut_count;
-  memory_->previous_cut = context.this_cut;
   Changes nothing;
   nothing.version_before = nothing.version_after = mesh.topology_version;
+  // The same cut again does nothing. Left to the steps below, a line that merging has led aside would be
+  // clipped by its own cut. That it was called is forgotten, so that the nodes of the cut stay recent.
+  if (!lines.empty() && lines == memory_->lines) return nothing;
+  memory_->lines = std::move(lines);
+  ++mesh.cut_count;
+  memory_->previous_cut = context.this_cut;
   if (works.empty()) {
     memory_->centres = {};
     return nothing;

@@ -37,8 +37,8 @@ double contact_slack(const MergeDistances& distances, const TriangleMesh& cutter
   return std::max(distances.edge * 0x1p-12, largest * 0x1p-46);
 }
 
-std::vector<TriangleWork> detect_cutting_lines(const HybridMesh& mesh, const TriangleMesh& cutter,
-                                               std::vector<CandidatePair> candidates, double slack) {
+Detection detect_cutting_lines(const HybridMesh& mesh, const TriangleMesh& cutter,
+                               std::vector<CandidatePair> candidates, double slack) {
   std::sort(candidates.begin(), candidates.end(), [&](const CandidatePair& a, const CandidatePair& b) {
     const AncestorId ancestor_a = mesh.buffers.triangles[a.triangle.index()].ancestor;
     const AncestorId ancestor_b = mesh.buffers.triangles[b.triangle.index()].ancestor;
@@ -53,7 +53,7 @@ std::vector<TriangleWork> detect_cutting_lines(const HybridMesh& mesh, const Tri
         faces[i].prepare({cutter.positions[t[0]], cutter.positions[t[1]], cutter.positions[t[2]]}) ? 1 : 0;
   }
 
-  std::vector<TriangleWork> works;
+  Detection detection;
   std::vector<LatticePoint> points;
   std::vector<CuttingLine> lines;
   for (std::size_t i = 0; i < candidates.size();) {
@@ -72,6 +72,7 @@ std::vector<TriangleWork> detect_cutting_lines(const HybridMesh& mesh, const Tri
     }
     if (lines.empty()) continue;
     join_collinear_lines(lines);
+    for (const CuttingLine& l : lines) detection.lines.push_back({ancestor, l.a.point, l.b.point});
     TriangleWork work{ancestor, rest_metric(mesh.ancestors, ancestor), working_arrangement(mesh, ancestor)};
     if (arrangement != nullptr && arrangement->polygons.size() > 1) {
       for (const CuttingLine& l : lines)
@@ -79,9 +80,12 @@ std::vector<TriangleWork> detect_cutting_lines(const HybridMesh& mesh, const Tri
     } else {
       work.lines = lines;
     }
-    if (!work.lines.empty()) works.push_back(std::move(work));
+    if (!work.lines.empty()) detection.works.push_back(std::move(work));
   }
-  return works;
+  auto& found = detection.lines;
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return detection;
 }
 
 }  // namespace cut

@@ -1,6 +1,7 @@
 /// @file
 /// Step 1, Detect Cutting Lines (§4.1). In: the mesh where it is now, the cutter, pairs of triangles whose
-/// boxes meet. Out: one TriangleWork for each ancestor that is cut, with its cutting lines.
+/// boxes meet. Out: one TriangleWork for each ancestor that is cut, with its cutting lines; and these lines
+/// as they were before they were clipped, by which a cut that is made again is known.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -22,9 +23,21 @@ struct CandidatePair {
 /// to rounding.
 double contact_slack(const MergeDistances& distances, const TriangleMesh& cutter);
 
-/// The result does not depend on the order of `candidates`. Works are sorted by ancestor, lines within a work
-/// as well. O(candidates · log).
-std::vector<TriangleWork> detect_cutting_lines(const HybridMesh& mesh, const TriangleMesh& cutter,
-                                               std::vector<CandidatePair> candidates, double slack);
+/// Where the cutter meets an ancestor's plane, whatever cuts there are in it.
+struct DetectedLine {
+  AncestorId ancestor;
+  LatticePoint a;
+  LatticePoint b;
+  auto operator<=>(const DetectedLine&) const = default;
+};
+
+struct Detection {
+  std::vector<TriangleWork> works;  ///< sorted by ancestor, lines within a work as well
+  std::vector<DetectedLine> lines;  ///< sorted, each once
+};
+
+/// The result does not depend on the order of `candidates`. O(candidates · log).
+Detection detect_cutting_lines(const HybridMesh& mesh, const TriangleMesh& cutter,
+                               std::vector<CandidatePair> candidates, double slack);
 
 }  // namespace cut
