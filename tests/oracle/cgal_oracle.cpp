@@ -2,8 +2,8 @@
 #include "oracle/cgal_oracle.hpp"
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
-#include <CGAL/Polygon_mesh_processing/clip.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
+#include <CGAL/Polygon_mesh_processing/corefinement.h>
 #include <CGAL/Surface_mesh.h>
 
 #include <Eigen/Geometry>
@@ -38,12 +38,16 @@ std::vector<double> split_pieces(const cut::TriangleMesh& cloth,
                                  const std::vector<cut::TriangleMesh>& cutters) {
   namespace processing = CGAL::Polygon_mesh_processing;
   Mesh mesh = converted(cloth);
+  // Not `split`: the two lips of a slit that it opens lie on each other, and a mesh that touches itself must
+  // not be given to it again. Here the cuts stay marked edges.
+  const auto is_cut = mesh.add_property_map<Mesh::Edge_index, bool>("e:cut", false).first;
+  const auto with_cuts = CGAL::parameters::edge_is_constrained_map(is_cut);
   for (const cut::TriangleMesh& cutter : cutters) {
     Mesh splitter = converted(cutter);
-    processing::split(mesh, splitter);
+    processing::corefine(mesh, splitter, with_cuts);
   }
   const auto component = mesh.add_property_map<Mesh::Face_index, std::size_t>("f:component").first;
-  std::vector<double> areas(processing::connected_components(mesh, component), 0);
+  std::vector<double> areas(processing::connected_components(mesh, component, with_cuts), 0);
   for (const Mesh::Face_index f : mesh.faces()) areas[component[f]] += area(mesh, f);
   std::sort(areas.rbegin(), areas.rend());
   return areas;

@@ -8,7 +8,7 @@
 
 namespace oracle {
 
-/// Areas of the connected components of the cloth after it was split by one cutter after another, largest
+/// Areas of the connected components of the cloth that was cut by one cutter after another, largest
 /// first.
 /// @pre the cloth is consistently wound; no cutter meets itself
 std::vector<double> split_pieces(const cut::TriangleMesh& cloth,

@@ -84,7 +84,7 @@ TEST_CASE("coordinates at the limits of the type") {
   std::vector<Box> boxes;
   for (int i = 0; i < 3000; ++i) {
     Box b;
-    for (int a = 0; a < 2; ++a) {
+    for (std::size_t a = 0; a < 2; ++a) {
       b.min[a] = special[random() % 12];
       b.max[a] = special[random() % 12];
       if (b.max[a] < b.min[a]) std::swap(b.min[a], b.max[a]);

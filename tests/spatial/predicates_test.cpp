@@ -26,7 +26,7 @@ struct Scene {
   }
   static Box any_box(std::mt19937& random) {
     Box b;
-    for (int a = 0; a < 2; ++a) {
+    for (std::size_t a = 0; a < 2; ++a) {
       b.min[a] = int(random() % 20);
       b.max[a] = b.min[a] + int(random() % 6);
     }
@@ -36,7 +36,7 @@ struct Scene {
   std::vector<int> brute(Expected expected) const {
     std::vector<int> result;
     for (int i = 0; i < int(boxes.size()); ++i) {
-      if (expected(boxes[i], i)) result.push_back(i);
+      if (expected(boxes[static_cast<std::size_t>(i)], i)) result.push_back(i);
     }
     return result;
   }
@@ -57,14 +57,14 @@ struct Scene {
 
 bool inside(const Box& e, const Box& q) { return spatial::encloses(q, e); }
 bool strictly(const Box& e, const Box& q) {
-  for (int a = 0; a < 2; ++a) {
+  for (std::size_t a = 0; a < 2; ++a) {
     if (!inside(e, q)) return false;
     if (e.min[a] == e.max[a] && (e.min[a] == q.min[a] || e.max[a] == q.max[a])) return false;
   }
   return true;
 }
 bool overlapping(const Box& e, const Box& q) {
-  for (int a = 0; a < 2; ++a) {
+  for (std::size_t a = 0; a < 2; ++a) {
     if (e.max[a] <= q.min[a] || q.max[a] <= e.min[a]) return false;
   }
   return !inside(e, q) && !inside(q, e);
