@@ -107,14 +107,12 @@ class VertexCopier {
     return arrangement.edge_node(i, mesh_.ancestors.reversed(a, i) ? count - k : k + 1);
   }
 
-  /// All angles of a triangle, sorted by node.
+  /// All angles of a cut triangle, sorted by node.
   const std::vector<Angle>& angles(AncestorId a) {
     const auto [entry, added] = angles_.try_emplace(a);
     if (!added) return entry->second;
     std::vector<Angle>& list = entry->second;
-    const Arrangement made_up =
-        mesh_.arrangement(a) == nullptr ? working_arrangement(mesh_, a) : Arrangement{};
-    const Arrangement& arrangement = mesh_.arrangement(a) == nullptr ? made_up : *mesh_.arrangement(a);
+    const Arrangement& arrangement = *mesh_.arrangement(a);
     for (Index p = 0; p < arrangement.polygons.size(); ++p) {
       const RenderPolygon& polygon = arrangement.polygons[p];
       Index begin = 0;
@@ -155,6 +153,11 @@ class VertexCopier {
   }
 
   void append_angles(AncestorId a, Index node, std::vector<Angle>& group) {
+    if (mesh_.arrangement(a) == nullptr) {
+      const auto& edges = mesh_.ancestors.triangles[a.index()].edges;
+      group.push_back({a, node, 0, node, {edges[last_corner(node)], edges[node]}, {}});
+      return;
+    }
     const auto& list = angles(a);
     const auto [begin, end] =
         std::equal_range(list.begin(), list.end(), Angle{a, node, 0, 0, {}, {}},
@@ -164,8 +167,10 @@ class VertexCopier {
 
   /// Gives each component of angles at one node its vertex.
   void assign(std::span<const Angle> group) {
-    lattice::Components components(group.size());
-    std::vector<std::tuple<AncestorEdgeId, Index, Index>> sides;
+    lattice::Components& components = components_;
+    auto& sides = sides_;
+    components.reset(group.size());
+    sides.clear();
     for (Index i = 0; i < group.size(); ++i)
       for (std::size_t which = 0; which < 2; ++which)
         if (group[i].edge[which].valid())
@@ -252,6 +257,9 @@ class VertexCopier {
   std::unordered_map<AncestorId, std::vector<Angle>> angles_;
   std::vector<RenderVertexId> released_;
   std::unordered_set<Index> claimed_;
+  // Of `assign`, kept for their memory.
+  lattice::Components components_{0};
+  std::vector<std::tuple<AncestorEdgeId, Index, Index>> sides_;
 };
 
 }  // namespace

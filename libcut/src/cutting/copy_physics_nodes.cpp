@@ -74,6 +74,9 @@ struct Copy {
 bool copy_physics_node(HybridMesh& mesh, AncestorNodeId node, ChangeLog& log) {
   const Fragments fragments(mesh, node);
   lattice::Components components = connect(mesh, node, fragments);
+  Index roots = 0;
+  for (Index i = 0; i < components.size(); ++i) roots += components.root(i) == i ? 1u : 0u;
+  if (roots <= 1) return false;
   std::vector<Copy> copies;
   std::vector<Index> copy_of_root(fragments.first.back(), HybridMesh::none);
   const auto for_each_fragment = [&](const auto& visit) {
@@ -129,7 +132,9 @@ void update_springs(HybridMesh& mesh, const std::vector<AncestorNodeId>& nodes, 
   std::vector<AncestorEdgeId> edges;
   for (const AncestorNodeId n : nodes)
     for (const AncestorId t : mesh.ancestors.triangles_around(n))
-      for (const AncestorEdgeId e : mesh.ancestors.triangles[t.index()].edges) edges.push_back(e);
+      for (const std::size_t corner = mesh.ancestors.local_node(t, n);
+           const std::size_t i : {corner, last_corner(corner)})
+        edges.push_back(mesh.ancestors.triangles[t.index()].edges[i]);
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
 

@@ -39,12 +39,6 @@ double contact_slack(const MergeDistances& distances, const TriangleMesh& cutter
 
 Detection detect_cutting_lines(const HybridMesh& mesh, const TriangleMesh& cutter,
                                std::vector<CandidatePair> candidates, double slack) {
-  std::sort(candidates.begin(), candidates.end(), [&](const CandidatePair& a, const CandidatePair& b) {
-    const AncestorId ancestor_a = mesh.buffers.triangles[a.triangle.index()].ancestor;
-    const AncestorId ancestor_b = mesh.buffers.triangles[b.triangle.index()].ancestor;
-    return std::tie(ancestor_a, a.triangle, a.cutter_triangle) <
-           std::tie(ancestor_b, b.triangle, b.cutter_triangle);
-  });
   std::vector<CutterFace> faces(cutter.triangles.size());
   std::vector<std::uint8_t> has_area(cutter.triangles.size());
   for (std::size_t i = 0; i < faces.size(); ++i) {
@@ -52,6 +46,19 @@ Detection detect_cutting_lines(const HybridMesh& mesh, const TriangleMesh& cutte
     has_area[i] =
         faces[i].prepare({cutter.positions[t[0]], cutter.positions[t[1]], cutter.positions[t[2]]}) ? 1 : 0;
   }
+  // Boxes of slanting triangles are wide: most candidates lie on one side of the cutter's plane.
+  std::erase_if(candidates, [&](const CandidatePair& c) {
+    if (has_area[c.cutter_triangle] == 0) return true;
+    const auto& n = mesh.buffers.triangles[c.triangle.index()].nodes;
+    return faces[c.cutter_triangle].misses(
+        {mesh.positions[n[0].index()], mesh.positions[n[1].index()], mesh.positions[n[2].index()]}, slack);
+  });
+  std::sort(candidates.begin(), candidates.end(), [&](const CandidatePair& a, const CandidatePair& b) {
+    const AncestorId ancestor_a = mesh.buffers.triangles[a.triangle.index()].ancestor;
+    const AncestorId ancestor_b = mesh.buffers.triangles[b.triangle.index()].ancestor;
+    return std::tie(ancestor_a, a.triangle, a.cutter_triangle) <
+           std::tie(ancestor_b, b.triangle, b.cutter_triangle);
+  });
 
   Detection detection;
   std::vector<LatticePoint> points;
@@ -63,7 +70,6 @@ Detection detect_cutting_lines(const HybridMesh& mesh, const TriangleMesh& cutte
     for (; i < candidates.size(); ++i) {
       const PhysicsTriangle& triangle = mesh.buffers.triangles[candidates[i].triangle.index()];
       if (triangle.ancestor != ancestor) break;
-      if (has_area[candidates[i].cutter_triangle] == 0) continue;
       intersect(physics_face(mesh, triangle), faces[candidates[i].cutter_triangle], slack, points);
       if (points.size() < 2) continue;
       const std::uint32_t polygon = polygon_of(mesh, candidates[i].triangle);

@@ -39,9 +39,21 @@ bool unit_normal(const std::array<Vector3, 3>& corners, Vector3& normal) {
   return true;
 }
 
-double height(const Vector3& p, const Vector3& normal, const Vector3& origin, double slack) {
-  const double h = dot(normal, p - origin);
-  return std::abs(h) <= slack ? 0 : h;
+/// Of three points above a plane; 0 within the slack.
+std::array<double, 3> heights(const std::array<Vector3, 3>& points, const Vector3& normal,
+                              const Vector3& origin, double slack) {
+  std::array<double, 3> h;
+  for (std::size_t k = 0; k < 3; ++k) {
+    h[k] = dot(normal, points[k] - origin);
+    if (std::abs(h[k]) <= slack) h[k] = 0;
+  }
+  return h;
+}
+
+/// Whether a triangle with these heights lies on one side of the plane, or in it: it cuts nothing there.
+bool one_sided(const std::array<double, 3>& h) {
+  return (h[0] > 0 && h[1] > 0 && h[2] > 0) || (h[0] < 0 && h[1] < 0 && h[2] < 0) ||
+         (h[0] == 0 && h[1] == 0 && h[2] == 0);
 }
 
 std::int32_t to_lattice(double b) {
@@ -110,21 +122,20 @@ bool CutterFace::contains(const Vector3& p, double slack) const {
   return true;
 }
 
+bool CutterFace::misses(const std::array<Vector3, 3>& triangle, double slack) const {
+  return one_sided(heights(triangle, normal, corners[0], slack));
+}
+
 void intersect(const PhysicsFace& triangle, const CutterFace& cutter, double slack,
                std::vector<LatticePoint>& points) {
   points.clear();
-  std::array<double, 3> h;
-  for (std::size_t k = 0; k < 3; ++k)
-    h[k] = height(triangle.corners[k], cutter.normal, cutter.corners[0], slack);
-  const auto [low, high] = std::minmax({h[0], h[1], h[2]});
-  if (low > 0 || high < 0 || (low == 0 && high == 0)) return;
+  const std::array<double, 3> h = heights(triangle.corners, cutter.normal, cutter.corners[0], slack);
+  if (one_sided(h)) return;
   PhysicsFace face = triangle;
   Vector3 normal;
   if (!unit_normal(face.corners, normal)) return;
-  std::array<double, 3> g;
-  for (std::size_t k = 0; k < 3; ++k) g[k] = height(cutter.corners[k], normal, face.corners[0], slack);
-  const auto [below, above] = std::minmax({g[0], g[1], g[2]});
-  if (below > 0 || above < 0 || (below == 0 && above == 0)) return;
+  const std::array<double, 3> g = heights(cutter.corners, normal, face.corners[0], slack);
+  if (one_sided(g)) return;
 
   for (std::size_t k = 0; k < 3; ++k)
     if (h[k] == 0 && cutter.contains(face.corners[k], slack)) points.push_back(lattice_corner(k));

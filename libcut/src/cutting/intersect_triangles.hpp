@@ -21,6 +21,8 @@ struct CutterFace {
 
   /// @return false when the triangle has no area to speak of
   bool prepare(std::array<Eigen::Vector3d, 3> points);
+  /// Whether the triangle lies on one side of the plane, or in it, so that `intersect` would find no line.
+  [[nodiscard]] bool misses(const std::array<Eigen::Vector3d, 3>& triangle, double slack) const;
   /// Signed distances of p from the three edges are at least -slack. @pre p lies in the plane
   [[nodiscard]] bool contains(const Eigen::Vector3d& p, double slack) const;
 };

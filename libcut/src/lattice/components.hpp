@@ -11,7 +11,11 @@ namespace cut::lattice {
 class Components {
  public:
   /// Items 0 to items - 1, each by itself.
-  explicit Components(std::size_t items) : parent_(items) { std::iota(parent_.begin(), parent_.end(), 0u); }
+  explicit Components(std::size_t items) { reset(items); }
+  void reset(std::size_t items) {
+    parent_.resize(items);
+    std::iota(parent_.begin(), parent_.end(), 0u);
+  }
 
   std::uint32_t root(std::uint32_t item) {
     while (parent_[item] != item) item = parent_[item] = parent_[parent_[item]];

@@ -61,6 +61,17 @@ bool check_elements(const TriangleMesh& mesh, Error& error) {
   return true;
 }
 
+/// By node, then by triangle. Most buckets hold three sides, for which calling a sort costs more than
+/// sorting.
+void sort_sides(Side* begin, Side* end) {
+  const auto less = [](const Side& a, const Side& b) {
+    return a.other != b.other ? a.other < b.other : a.triangle < b.triangle;
+  };
+  if (end - begin > 16) return std::sort(begin, end, less);
+  for (Side* i = begin; i != end; ++i)
+    for (Side* j = i; j != begin && less(*j, j[-1]); --j) std::swap(*j, j[-1]);
+}
+
 /// All sides, bucketed by their smaller node and sorted within each bucket.
 struct Sides {
   std::vector<Index> first;  ///< per node (+1)
@@ -83,10 +94,7 @@ Sides collect_sides(const TriangleMesh& mesh) {
     }
   }
   for (std::size_t n = 0; n < mesh.positions.size(); ++n)
-    std::sort(result.sides.begin() + result.first[n], result.sides.begin() + result.first[n + 1],
-              [](const Side& a, const Side& b) {
-                return std::tie(a.other, a.triangle) < std::tie(b.other, b.triangle);
-              });
+    sort_sides(result.sides.data() + result.first[n], result.sides.data() + result.first[n + 1]);
   return result;
 }
 
@@ -110,30 +118,89 @@ bool smaller_position(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::tie(a.x(), a.y(), a.z()) < std::tie(b.x(), b.y(), b.z());
 }
 
-/// Gives each fan of triangles around an input node a node of its own. Wedge 3·t + k is corner k of input
-/// triangle t. Returns the node of each wedge; appends the additional nodes to `ancestors`.
-std::vector<Index> split_fans(const TriangleMesh& mesh, lattice::Components& fans, AncestorMesh& ancestors) {
-  const std::size_t wedges = 3 * mesh.triangles.size();
-  std::vector<Index> node_of_root(wedges, HybridMesh::none);
-  std::vector<std::uint8_t> taken(mesh.positions.size(), 0);
-  std::vector<Index> node_of(wedges);
-  for (Index w = 0; w < wedges; ++w) {
-    const Index root = fans.root(w);
-    Index& node = node_of_root[root];
-    if (node == HybridMesh::none) {
-      const Index input = mesh.triangles[w / 3][w % 3];
-      if (taken[input] == 0) {
-        node = input;
-        taken[input] = 1;
-      } else {
-        node = static_cast<Index>(ancestors.rest_positions.size());
-        ancestors.rest_positions.push_back(mesh.positions[input]);
-        ancestors.input_node.push_back(input);
-      }
-    }
-    node_of[w] = node;
+/// Turns each triangle so that it starts at its smallest corner.
+void choose_corners(const TriangleMesh& mesh, AncestorMesh& ancestors) {
+  ancestors.input_corner.resize(mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& corners = mesh.triangles[t];
+    std::size_t first = 0;
+    for (std::size_t k = 1; k < 3; ++k)
+      if (smaller_position(mesh.positions[corners[k]], mesh.positions[corners[first]])) first = k;
+    ancestors.input_corner[t] = static_cast<std::uint8_t>(first);
   }
-  return node_of;
+}
+
+/// Joins sides with the same two nodes to edges, and wedges that share an edge to fans. Wedge 3·t + k is
+/// corner k of input triangle t. Edges get their nodes by input number. Returns whether all is well;
+/// otherwise fills `error`.
+bool find_edges(const TriangleMesh& mesh, AncestorMesh& ancestors, lattice::Components& fans, Error& error) {
+  const Sides sides = collect_sides(mesh);
+  const auto wedge_at = [&](const Side& s, Index node) {
+    return 3 * s.triangle + (mesh.triangles[s.triangle][s.corner] == node
+                                 ? s.corner
+                                 : static_cast<Index>(next_corner(s.corner)));
+  };
+  ancestors.triangles.resize(mesh.triangles.size());
+  ancestors.edges.reserve(mesh.triangles.size() + mesh.triangles.size() / 2 + mesh.positions.size() / 4);
+  for (Index low = 0; low < mesh.positions.size(); ++low) {
+    const Side* const bucket_end = sides.sides.data() + sides.first[low + 1];
+    for (const Side* a = sides.sides.data() + sides.first[low]; a != bucket_end;) {
+      const Side* end = a + 1;
+      while (end != bucket_end && end->other == a->other) ++end;
+      const bool paired = end - a == 2;
+      if (end - a > 2 || (paired && mesh.triangles[a->triangle][last_corner(a->corner)] ==
+                                        mesh.triangles[a[1].triangle][last_corner(a[1].corner)])) {
+        error = too_many_sides(mesh, a, end, low);
+        return false;
+      }
+      const AncestorEdgeId id{ancestors.edges.size()};
+      AncestorEdge& edge = ancestors.edges.emplace_back();
+      edge.nodes = {AncestorNodeId{low}, AncestorNodeId{a->other}};
+      if (smaller_position(mesh.positions[a->other], mesh.positions[low]))
+        std::swap(edge.nodes[0], edge.nodes[1]);
+      for (std::size_t side = 0; a != end; ++a, ++side) {
+        edge.triangles[side] = AncestorId{a->triangle};
+        ancestors.triangles[a->triangle].edges[(a->corner + 3 - ancestors.input_corner[a->triangle]) % 3] =
+            id;
+      }
+      if (paired)
+        for (const Index node : {low, end[-1].other})
+          fans.join(wedge_at(end[-2], node), wedge_at(end[-1], node));
+    }
+  }
+  return true;
+}
+
+/// Gives each fan of triangles around an input node a node of its own, appended to `ancestors`, and fills in
+/// the nodes of triangles and edges.
+void split_fans(const TriangleMesh& mesh, lattice::Components& fans, AncestorMesh& ancestors) {
+  ancestors.rest_positions = mesh.positions;
+  ancestors.input_node.resize(mesh.positions.size());
+  std::iota(ancestors.input_node.begin(), ancestors.input_node.end(), Index{0});
+  std::vector<std::uint8_t> taken(mesh.positions.size(), 0);
+  std::vector<Index> node_of(3 * mesh.triangles.size());  // per wedge
+  for (Index w = 0; w < node_of.size(); ++w) {
+    const Index root = fans.root(w);  // the first wedge of the fan
+    if (root != w) {
+      node_of[w] = node_of[root];
+    } else if (const Index input = mesh.triangles[w / 3][w % 3]; taken[input] == 0) {
+      node_of[w] = input;
+      taken[input] = 1;
+    } else {
+      node_of[w] = static_cast<Index>(ancestors.rest_positions.size());
+      ancestors.rest_positions.push_back(mesh.positions[input]);
+      ancestors.input_node.push_back(input);
+    }
+    const std::size_t k = (w % 3 + 3 - ancestors.input_corner[w / 3]) % 3;
+    ancestors.triangles[w / 3].nodes[k] = AncestorNodeId{node_of[w]};
+  }
+  if (ancestors.rest_positions.size() == mesh.positions.size()) return;
+  for (AncestorEdge& edge : ancestors.edges)
+    for (AncestorNodeId& node : edge.nodes) {
+      const auto& corners = ancestors.triangles[edge.triangles[0].index()].nodes;
+      node = *std::find_if(corners.begin(), corners.end(),
+                           [&](AncestorNodeId n) { return ancestors.input_node[n.index()] == node.value; });
+    }
 }
 
 void fill_incidences(AncestorMesh& ancestors) {
@@ -149,13 +216,20 @@ void fill_incidences(AncestorMesh& ancestors) {
       ancestors.incidences[fill[n.index()]++] = AncestorId{i};
 }
 
+/// Room for an eighth more: the first cut then appends to the buffers without moving all of them.
+template <class T>
+void resize_with_room(std::vector<T>& items, std::size_t size) {
+  items.reserve(size + size / 8 + 64);
+  items.resize(size);
+}
+
 /// One physics triangle, one render triangle and their nodes, springs and vertices for each ancestor.
 void fill_buffers(HybridMesh& mesh) {
   const AncestorMesh& ancestors = mesh.ancestors;
   const std::size_t nodes = ancestors.rest_positions.size();
   Buffers& buffers = mesh.buffers;
-  buffers.nodes.resize(nodes);
-  buffers.render_vertices.resize(nodes);
+  resize_with_room(buffers.nodes, nodes);
+  resize_with_room(buffers.render_vertices, nodes);
   for (std::size_t n = 0; n < nodes; ++n) {
     buffers.nodes[n] = AncestorNodeId{n};
     const auto around = ancestors.triangles_around(AncestorNodeId{n});
@@ -169,8 +243,8 @@ void fill_buffers(HybridMesh& mesh) {
     for (std::size_t k = 0; k < 3; ++k) vertex.nodes[k] = NodeId{corners[k].index()};
     vertex.point = lattice_corner(ancestors.local_node(around[0], AncestorNodeId{n}));
   }
-  buffers.triangles.resize(ancestors.triangles.size());
-  buffers.render_triangles.resize(ancestors.triangles.size());
+  resize_with_room(buffers.triangles, ancestors.triangles.size());
+  resize_with_room(buffers.render_triangles, ancestors.triangles.size());
   for (std::size_t t = 0; t < ancestors.triangles.size(); ++t) {
     buffers.triangles[t].ancestor = AncestorId{t};
     buffers.render_triangles[t].triangle = TriangleId{t};
@@ -180,12 +254,13 @@ void fill_buffers(HybridMesh& mesh) {
       buffers.render_triangles[t].vertices[k] = RenderVertexId{node};
     }
   }
-  buffers.springs.resize(ancestors.edges.size());
+  resize_with_room(buffers.springs, ancestors.edges.size());
   for (std::size_t e = 0; e < ancestors.edges.size(); ++e) {
     const auto& ends = ancestors.edges[e].nodes;
     buffers.springs[e] = {{NodeId{ends[0].index()}, NodeId{ends[1].index()}}, AncestorEdgeId{e}};
   }
-  mesh.positions = ancestors.rest_positions;
+  resize_with_room(mesh.positions, nodes);
+  std::copy(ancestors.rest_positions.begin(), ancestors.rest_positions.end(), mesh.positions.begin());
   mesh.arrangement_of.assign(ancestors.triangles.size(), HybridMesh::none);
   mesh.edge_state_of.assign(ancestors.edges.size(), HybridMesh::none);
   mesh.node_stamps.assign(nodes, 0);
@@ -196,72 +271,12 @@ void fill_buffers(HybridMesh& mesh) {
 Result<HybridMesh> HybridMesh::build(const TriangleMesh& input) {
   Error error{};
   if (!check_elements(input, error)) return error;
-  const Sides sides = collect_sides(input);
-
-  // Edges: groups of sides with the same two nodes.
-  lattice::Components fans(3 * input.triangles.size());  // of wedges
-  const auto wedge_at = [&](const Side& s, Index node) {
-    return 3 * s.triangle + (input.triangles[s.triangle][s.corner] == node
-                                 ? s.corner
-                                 : static_cast<Index>(next_corner(s.corner)));
-  };
-  std::vector<Index> edge_of_side(3 * input.triangles.size());
-  std::vector<std::array<Index, 2>> edge_sides;  // the wedge numbers 3·t + k of the sides of each edge
-  edge_sides.reserve(2 * input.triangles.size());
-  for (Index low = 0; low < input.positions.size(); ++low) {
-    const Side* const bucket_end = sides.sides.data() + sides.first[low + 1];
-    for (const Side* a = sides.sides.data() + sides.first[low]; a != bucket_end;) {
-      const Side* end = a + 1;
-      while (end != bucket_end && end->other == a->other) ++end;
-      const bool paired = end - a == 2;
-      if (end - a > 2 || (paired && input.triangles[a->triangle][last_corner(a->corner)] ==
-                                        input.triangles[a[1].triangle][last_corner(a[1].corner)]))
-        return too_many_sides(input, a, end, low);
-      const auto edge = static_cast<Index>(edge_sides.size());
-      edge_sides.push_back({3 * a->triangle + a->corner, none});
-      edge_of_side[3 * a->triangle + a->corner] = edge;
-      if (paired) {
-        edge_sides.back()[1] = 3 * a[1].triangle + a[1].corner;
-        edge_of_side[3 * a[1].triangle + a[1].corner] = edge;
-        for (const Index node : {low, a->other}) fans.join(wedge_at(a[0], node), wedge_at(a[1], node));
-      }
-      a = end;
-    }
-  }
-
   HybridMesh mesh;
   AncestorMesh& ancestors = mesh.ancestors;
-  ancestors.rest_positions = input.positions;
-  ancestors.input_node.resize(input.positions.size());
-  std::iota(ancestors.input_node.begin(), ancestors.input_node.end(), Index{0});
-  const std::vector<Index> node_of = split_fans(input, fans, ancestors);
-
-  ancestors.triangles.resize(input.triangles.size());
-  ancestors.input_corner.resize(input.triangles.size());
-  for (std::size_t t = 0; t < input.triangles.size(); ++t) {
-    const auto& corners = input.triangles[t];
-    std::size_t first = 0;
-    for (std::size_t k = 1; k < 3; ++k)
-      if (smaller_position(input.positions[corners[k]], input.positions[corners[first]])) first = k;
-    ancestors.input_corner[t] = static_cast<std::uint8_t>(first);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t side = 3 * t + (first + k) % 3;
-      ancestors.triangles[t].nodes[k] = AncestorNodeId{node_of[side]};
-      ancestors.triangles[t].edges[k] = AncestorEdgeId{edge_of_side[side]};
-    }
-  }
-  ancestors.edges.resize(edge_sides.size());
-  for (std::size_t e = 0; e < edge_sides.size(); ++e) {
-    const Index side = edge_sides[e][0];
-    const Index next = side / 3 * 3 + static_cast<Index>(next_corner(side % 3));
-    std::array<AncestorNodeId, 2> ends{AncestorNodeId{node_of[side]}, AncestorNodeId{node_of[next]}};
-    if (smaller_position(ancestors.rest_positions[ends[1].index()],
-                         ancestors.rest_positions[ends[0].index()]))
-      std::swap(ends[0], ends[1]);
-    ancestors.edges[e].nodes = ends;
-    for (std::size_t k = 0; k < 2; ++k)
-      if (edge_sides[e][k] != none) ancestors.edges[e].triangles[k] = AncestorId{edge_sides[e][k] / 3};
-  }
+  choose_corners(input, ancestors);
+  lattice::Components fans(3 * input.triangles.size());  // of wedges
+  if (!find_edges(input, ancestors, fans, error)) return error;
+  split_fans(input, fans, ancestors);
   fill_incidences(ancestors);
   fill_buffers(mesh);
   return mesh;
