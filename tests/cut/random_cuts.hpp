@@ -144,7 +144,7 @@ inline cut::TriangleMesh cutter(Bytes& bytes, const Cloth& cloth) {
 
 inline cut::MergeDistances distances(Bytes& bytes, const cut::HybridMesh& mesh) {
   cut::MergeDistances d = cut::default_merge_distances(mesh);
-  switch (bytes.choice(4)) {
+  switch (bytes.choice(5)) {
     case 0:
       d = {d.cut * 2, d.node * 2, d.edge * 2};
       break;
@@ -154,6 +154,14 @@ inline cut::MergeDistances distances(Bytes& bytes, const cut::HybridMesh& mesh) 
     case 2:
       d = {d.cut * 1e-4, d.node * 1e-5, d.edge * 1e-5};
       break;
+    case 3: {  // as small as they may be
+      double longest = 0;
+      for (std::size_t e = 0; e < mesh.ancestors.edges.size(); ++e)
+        longest = std::max(longest, mesh.ancestors.rest_length(cut::AncestorEdgeId{e}));
+      const double units = bytes.number(1.1, 4);
+      d.cut = d.node = d.edge = units * longest / cut::lattice_size;
+      break;
+    }
     default:
       break;
   }

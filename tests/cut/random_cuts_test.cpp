@@ -7,7 +7,10 @@
 
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifndef __has_feature
+#define __has_feature(x) 0
+#endif
+#if defined(__SANITIZE_ADDRESS__) || __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
 constexpr int sequences = 500;
 #elif defined(NDEBUG)
 constexpr int sequences = 10000;
@@ -16,7 +19,7 @@ constexpr int sequences = 2000;
 #endif
 
 TEST_CASE("nothing is violated after any cut of a random sequence") {
-  rc::detail::TestParams params;
+  rc::detail::TestParams params = rc::detail::configuration().testParams;  // the seed of RC_PARAMS
   params.maxSuccess = sequences;
   params.maxSize = 1200;  // bytes, 5 to 40 for each cut
   rc::detail::TestMetadata metadata;

@@ -1,10 +1,18 @@
 // One scene for each fault that was found and put right.
 #include <doctest/doctest.h>
 
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
 #include <scenes/cloths.hpp>
 #include <scenes/cutters.hpp>
+#include <scenes/random.hpp>
 
 #include "cut/cutter.hpp"
+#include "cut/pieces.hpp"
+#include "cut/simulation.hpp"
 #include "cut/validate.hpp"
 
 using namespace cut;
@@ -18,5 +26,125 @@ TEST_CASE("a triangle that only its edge's new node concerns is looked up by its
                                                     {1.619744866130151, 0.038686346117833392, 0}},
                                                    {0.1, -0.05, 2}));
   REQUIRE(cut.has_value());
+  CHECK(validate(mesh).empty());
+}
+
+namespace {
+
+using Stroke = std::array<double, 4>;  // from x, y to x, y
+
+/// Upright cuts through one square, with merge distances of some lattice units.
+HybridMesh cut_by(const std::vector<Stroke>& strokes, double units) {
+  HybridMesh mesh = *HybridMesh::build(scenes::grid(1, 1));
+  const double d = units * std::sqrt(2.0) / lattice_size;
+  Cutter cutter(*checked({d, d, d}, mesh));
+  for (const auto& [x0, y0, x1, y1] : strokes) {
+    REQUIRE(cutter.cut(mesh, scenes::ribbon({{x0, y0, 0}, {x1, y1, 0}}, {0, 0, 2})).has_value());
+    CHECK(validate(mesh).empty());
+  }
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("a node that comes to lie on one cut leads the cuts beside it through its cell") {
+  // Merge distances near a lattice cell. The graph was no longer planar: the first crashed, the others filled
+  // the memory.
+  cut_by({{-2.453183375002747, -0.5982549456579688, 3.0731825192158597, 1.7382552732833867},
+          {0.3099984217973059, 0.5700004594423419, 0.31000167707879295, 0.5699999992047983},
+          {-2.3347371710062386, 1.9861100961292872, 2.9547366029134667, -0.8461093860111109},
+          {1.9124317746725263, -1.9661806073786, -1.292432075776559, 3.1061805489355545},
+          {0.3099986251987594, 0.5699992262813827, 0.31000165332963026, 0.570000506554629},
+          {-2.4531833242712846, -0.5982548356317438, 3.073182723952222, 1.7382550190537667}},
+         1.5);
+  cut_by({{0.30999895417903467, 0.5699989413074269, 0.3100019823099671, 0.5700002215805275},
+          {-2.4531826915058246, -0.5982552883665537, 3.073183205800723, 1.7382549232711346},
+          {0.3099985781596109, 0.5699989176163355, 0.31000151092203937, 0.5700004034092868},
+          {-2.4531832495941686, -0.598254617394103, 3.0731828158886447, 1.738255196469303},
+          {-2.4531832859099065, -0.5982554555059417, 3.0731826445345405, 1.73825467775325},
+          {0.3100013303644386, 0.5699992980391795, 0.30999885497857477, 0.5700014616336382}},
+         1.5);
+  cut_by({{2.8545722473027957, 2.159072628937855, -2.234572768512701, -1.0190719568228832},
+          {0.30999965978366134, 0.5699988162169777, 0.31000004704941014, 0.5700010590979364},
+          {-2.4009990012990343, 1.8547121160370985, 3.0209984339069837, -0.7147126858630013},
+          {-2.4531828840950807, -0.5982551944926955, 3.073183051366958, 1.7382549268987744},
+          {-2.6784835368208046, 0.30738293329489574, 3.2984830383462693, 0.8326167472630982},
+          {-2.453183299934211, -0.5982551746071131, 3.0731827137237815, 1.7382547618335327},
+          {-2.4531829941569696, -0.5982549015806807, 3.0731829671977704, 1.7382551585687938},
+          {-2.453183318871614, -0.5982552822682682, 3.073182747058334, 1.7382545305375636},
+          {0.30999889798803815, 0.569999759619787, 0.3100009943863459, 0.570000645962774},
+          {-2.4531829032126606, -0.5982548695753345, 3.0731832796442853, 1.7382546666720893},
+          {-2.4531832162575813, -0.5982553517618446, 3.073182589182164, 1.7382550771612353}},
+         1.5);
+}
+
+TEST_CASE("no fragment vanishes however small the merge distances") {
+  // Rounding once left nothing of fragments, and nodes that belonged to no triangle.
+  for (std::uint32_t seed = 0; seed < 60; ++seed) {
+    scenes::Random random(seed);
+    HybridMesh mesh = *HybridMesh::build(scenes::grid(1, 1));
+    const double unit = std::sqrt(2.0) / lattice_size;
+    const double d = unit * (seed % 2 == 0 ? 1.02 : 3);
+    Cutter cutter({d, d, d});
+    auto simulation = *Simulation::build(mesh, Material{});
+    const double mass = simulation.total_mass();
+    for (int i = 0; i < 30; ++i) {
+      const Eigen::Vector3d p(0.31 + random.between(-8, 8) * unit, 0.57 + random.between(-8, 8) * unit, 0);
+      const double length = random.below(4) == 0 ? 24 * unit : 3;
+      const Eigen::Vector3d way = length * Eigen::Vector3d(random.between(-1, 1), random.between(-1, 1), 0);
+      const auto changes = cutter.cut(mesh, scenes::ribbon({p - way, p + way}, {0, 0, 2}));
+      REQUIRE(changes.has_value());
+      REQUIRE_FALSE(simulation.apply(*changes, mesh));
+      REQUIRE(validate(mesh).empty());
+      CHECK(simulation.total_mass() == doctest::Approx(mass).epsilon(1e-12));
+    }
+  }
+}
+
+TEST_CASE("a mesh that is set back to an earlier state is cut anew") {
+  HybridMesh mesh = *HybridMesh::build(scenes::grid(4, 4));
+  Cutter cutter(default_merge_distances(mesh));
+  const TriangleMesh blade = scenes::ribbon({{-1, 1.3, 0}, {5, 2.6, 0}}, {0, 0, 2});
+  const HybridMesh uncut = mesh;
+  REQUIRE(cutter.cut(mesh, blade).has_value());
+  mesh = uncut;
+  REQUIRE(cutter.cut(mesh, blade).has_value());
+  CHECK(pieces(mesh).list.size() == 2);
+
+  // As many calls to moved() as before, but the nodes are elsewhere.
+  const auto lift = [&](double z) {
+    mesh = uncut;
+    for (Eigen::Vector3d& p : mesh.positions) p.z() += z;
+    mesh.moved();
+  };
+  lift(10);
+  const TriangleMesh nowhere = scenes::ribbon({{50, 1.3, 0}, {55, 2.6, 0}}, {0, 0, 2});
+  for (int i = 0; i < 2; ++i) REQUIRE(cutter.cut(mesh, nowhere).has_value());  // the second builds the tree
+  lift(0.01);
+  REQUIRE(cutter.cut(mesh, blade).has_value());
+  CHECK(pieces(mesh).list.size() == 2);
+}
+
+TEST_CASE("a point of the cutter that no triangle names does not matter, wherever it is") {
+  for (const double far : {1e30, std::numeric_limits<double>::infinity()}) {
+    HybridMesh mesh = *HybridMesh::build(scenes::grid(4, 4));
+    Cutter cutter(default_merge_distances(mesh));
+    TriangleMesh blade = scenes::ribbon({{-1, 1.3, 0}, {5, 2.6, 0}}, {0, 0, 2});
+    blade.positions.emplace_back(far, 0, 0);
+    REQUIRE(cutter.cut(mesh, blade).has_value());
+    CHECK(pieces(mesh).list.size() == 2);
+  }
+}
+
+TEST_CASE("a long zigzag in one triangle takes neither the stack nor the square of its length") {
+  scenes::Path path;
+  constexpr int turns = 90000;
+  for (int i = 0; i <= turns; ++i) {
+    const double t = static_cast<double>(i) / turns;
+    path.emplace_back(5.5 + 3 * t, 2.2 + (i % 2 == 0 ? -2 : 2) * t, 0);
+  }
+  HybridMesh mesh = *HybridMesh::build(scenes::grid(1, 1, 10));
+  Cutter cutter(default_merge_distances(mesh));
+  REQUIRE(cutter.cut(mesh, scenes::ribbon(path, {0, 0, 2})).has_value());
   CHECK(validate(mesh).empty());
 }

@@ -35,10 +35,11 @@ class Cutter {
   /// Cuts `mesh`, where it is now, with all triangles of `cutter` at once. The order of the cutter's
   /// triangles does not matter; triangles without area cut nothing. The same cut made again by this Cutter,
   /// while nothing has moved, changes nothing. Returns what changed. Errors (the mesh is then as it was):
-  /// index_out_of_range, not_finite in `cutter`; not_finite positions of the cloth.
+  /// index_out_of_range, not_finite, too_far (a corner beyond 2^40 δe) in `cutter`; not_finite positions of
+  /// the cloth.
   /// @pre always called with the same mesh
   /// Complexity: by the number of triangles that the cutter meets; O(triangles) in addition when the mesh has
-  /// moved.
+  /// moved, or was cut by another Cutter.
   Result<Changes> cut(HybridMesh& mesh, const TriangleMesh& cutter);
 
   [[nodiscard]] const MergeDistances& distances() const;

@@ -13,7 +13,8 @@ struct Error {
   enum class Kind {
     empty_mesh,           ///< no triangle is left to work on
     index_out_of_range,   ///< a triangle names a point that does not exist
-    not_finite,           ///< a coordinate is NaN or infinite
+    not_finite,           ///< a coordinate is NaN, infinite or beyond `largest_coordinate`
+    too_far,              ///< a cutter reaches so far that its rounding is no longer small against the cloth
     degenerate_triangle,  ///< a triangle has no area
     duplicate_triangle,   ///< two triangles have the same three corners
     non_manifold_edge,    ///< more than two triangles share an edge
@@ -29,7 +30,7 @@ struct Error {
 
 /// A value or the reason why there is none.
 template <class T>
-class Result {
+class [[nodiscard]] Result {
  public:
   Result(T value) : content_(std::in_place_index<0>, std::move(value)) {}      // NOLINT: meant to convert
   Result(Error error) : content_(std::in_place_index<1>, std::move(error)) {}  // NOLINT: meant to convert
@@ -41,6 +42,7 @@ class Result {
   [[nodiscard]] T&& value() && { return std::move(*std::get_if<0>(&content_)); }
   T& operator*() & { return value(); }
   const T& operator*() const& { return value(); }
+  T&& operator*() && { return std::move(*this).value(); }
   T* operator->() { return std::get_if<0>(&content_); }
   const T* operator->() const { return std::get_if<0>(&content_); }
   /// @pre !has_value()

@@ -9,6 +9,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -89,7 +90,8 @@ struct AncestorMesh {
   /// Tension-free length of an edge.
   [[nodiscard]] double rest_length(AncestorEdgeId edge) const {
     const auto& ends = edges[edge.index()].nodes;
-    return (rest_positions[ends[1].index()] - rest_positions[ends[0].index()]).norm();
+    const Eigen::Vector3d d = rest_positions[ends[1].index()] - rest_positions[ends[0].index()];
+    return std::sqrt((d.x() * d.x() + d.y() * d.y()) + d.z() * d.z());  // this order, for every compiler
   }
 };
 
@@ -107,20 +109,22 @@ struct HybridMesh {
   std::vector<std::uint32_t> node_stamps;     ///< per ancestor node: last call to cut that it was part of
   std::vector<RenderVertexId> free_render_vertices;
   std::vector<RenderTriangleId> free_render_triangles;
-  std::uint32_t cut_count = 0;         ///< number of calls to cut so far
-  std::uint64_t position_version = 0;  ///< counts calls to `moved()`
+  std::uint32_t cut_count = 0;  ///< number of calls to cut so far
+  /// Names this state of positions and cuts. `build`, `moved` and each cut that changes anything draw a new
+  /// number; only copies of a mesh have the same.
+  std::uint64_t state = 0;
   std::uint64_t topology_version = 0;  ///< counts cuts that changed anything
 
   static constexpr std::uint32_t none = 0xffffffffu;
 
   /// Builds the hybrid mesh of an uncut cloth: one physics triangle and one congruent render triangle for
   /// each triangle of `mesh`, all lengths tension-free as given. Physics triangle i is triangle i of the
-  /// input. Errors: empty_mesh, index_out_of_range, not_finite, degenerate_triangle, duplicate_triangle,
-  /// non_manifold_edge, too_large. Complexity: O(n log n).
+  /// input. Errors: empty_mesh, index_out_of_range, not_finite (or 1e50 and beyond), degenerate_triangle (see
+  /// has_area), duplicate_triangle, non_manifold_edge, too_large. Complexity: O(n log n).
   [[nodiscard]] static Result<HybridMesh> build(const TriangleMesh& mesh);
 
-  /// Tells that positions were written to: the next cut then refits its broad phase.
-  void moved() { ++position_version; }
+  /// Tells that positions were written to: the next cut then looks at all of them.
+  void moved();
 
   [[nodiscard]] const Arrangement* arrangement(AncestorId t) const {
     const std::uint32_t i = arrangement_of[t.index()];

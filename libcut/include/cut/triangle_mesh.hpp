@@ -15,4 +15,11 @@ struct TriangleMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
+/// Coordinates must be smaller than this, so that no product of them overflows.
+constexpr double largest_coordinate = 1e50;
+
+/// Whether a triangle is wide enough to have a plane: its height is more than 1e-14 of its longest side. One
+/// that is not is refused in a cloth, and cuts nothing.
+[[nodiscard]] bool has_area(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
+
 }  // namespace cut

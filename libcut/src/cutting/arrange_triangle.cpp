@@ -23,6 +23,9 @@ using Index = std::uint32_t;
 std::vector<LatticePoint> lay_out(TriangleWork& work,
                                   const std::array<std::vector<LatticePoint>, 3>& boundary) {
   const Arrangement& before = work.before;
+  work.graph = {};
+  work.stamps.clear();
+  work.rendered.clear();
   std::vector<LatticePoint> fresh;
   std::vector<Index> renumbered(before.nodes.size());
   const auto add = [&](const ArrangementNode& node) {

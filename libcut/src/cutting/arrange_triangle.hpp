@@ -11,6 +11,7 @@
 
 namespace cut {
 
+/// May be called again, after lines were taken away: it starts from `before`.
 /// @param boundary the boundary nodes of each side now, counterclockwise
 void arrange_triangle(TriangleWork& work, const std::array<std::vector<LatticePoint>, 3>& boundary,
                       const CutContext& context);

@@ -28,9 +28,9 @@ Box box_of(const HybridMesh& mesh, std::size_t triangle) {
 }  // namespace
 
 bool BroadPhase::update(const HybridMesh& mesh, Error& error) {
-  const std::size_t count = mesh.buffers.triangles.size();
-  if (triangle_count_ == count && position_version_ == mesh.position_version) {
+  if (state_ == mesh.state) {
     if (has_tree_) return true;
+    const std::size_t count = mesh.buffers.triangles.size();
     std::vector<std::pair<Box, TriangleId>> boxes;
     boxes.reserve(count);
     for (std::size_t t = 0; t < count; ++t) boxes.emplace_back(box_of(mesh, t), TriangleId{t});
@@ -46,13 +46,12 @@ bool BroadPhase::update(const HybridMesh& mesh, Error& error) {
   }
   tree_.clear();
   has_tree_ = false;
-  triangle_count_ = count;
-  position_version_ = mesh.position_version;
+  state_ = mesh.state;
   return true;
 }
 
 void BroadPhase::add(const HybridMesh& mesh, const std::vector<TriangleCopy>& copies) {
-  triangle_count_ = mesh.buffers.triangles.size();
+  state_ = mesh.state;
   if (!has_tree_) return;
   for (const TriangleCopy& c : copies) tree_.insert(box_of(mesh, c.triangle.index()), c.triangle);
 }

@@ -17,25 +17,25 @@ namespace cut {
 
 class BroadPhase {
  public:
-  /// Finds out whether the mesh has moved since the last call. O(1) when it has not, except O(triangles) for
-  /// the first time that it has not; else O(nodes).
+  /// Finds out whether the mesh is as it was after the last call, this Cutter's own cuts left out. O(1) when
+  /// it is, except O(triangles) for the first time, when the tree is built; else O(nodes).
   /// @return false, and `error`, when a position is not finite
   bool update(const HybridMesh& mesh, Error& error);
 
-  /// Adds the physics triangles that a cut has made. Those that it changed lie where they were.
+  /// Takes note of a cut: adds the physics triangles that it has made. Those that it changed lie where they
+  /// were.
   void add(const HybridMesh& mesh, const std::vector<TriangleCopy>& copies);
 
   /// All pairs whose boxes are within `slack` of each other, in no particular order.
   /// @pre update was called and the mesh is as it was then
-  /// Complexity: by the size of the cutter and the result; O(triangles) in addition when the mesh has moved.
+  /// Complexity: by the size of the cutter and the result; O(triangles) in addition when there is no tree.
   [[nodiscard]] std::vector<CandidatePair> candidates(const HybridMesh& mesh, const TriangleMesh& cutter,
                                                       double slack) const;
 
  private:
   spatial::BoundingBoxTernaryTree<TriangleId, double, 3> tree_;  ///< empty until the mesh stands still
   bool has_tree_ = false;
-  std::size_t triangle_count_ = 0;  ///< of the mesh when last seen; 0: never
-  std::uint64_t position_version_ = 0;
+  std::uint64_t state_ = 0;  ///< of the mesh when last seen; 0: never
 };
 
 }  // namespace cut

@@ -22,6 +22,7 @@
 #include "cutting/state.hpp"
 #include "cutting/triangulate_polygons.hpp"
 #include "cutting/weld_slivers.hpp"
+#include "mesh/state.hpp"
 
 namespace cut {
 
@@ -31,6 +32,7 @@ struct Cutter::Memory {
   std::uint32_t previous_cut = 0;
   ClusterCentres centres;
   std::vector<DetectedLine> lines;  ///< of the previous call
+  std::uint64_t state = 0;          ///< of the mesh after the previous call
   StepTimings timings;
 };
 
@@ -49,7 +51,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-bool check_cutter(const TriangleMesh& cutter, Error& error) {
+bool check_cutter(const TriangleMesh& cutter, const MergeDistances& distances, Error& error) {
   for (std::size_t i = 0; i < cutter.triangles.size(); ++i)
     for (const std::uint32_t node : cutter.triangles[i]) {
       if (node >= cutter.positions.size()) {
@@ -59,11 +61,20 @@ bool check_cutter(const TriangleMesh& cutter, Error& error) {
                  i};
         return false;
       }
-      if (!cutter.positions[node].allFinite() || !(cutter.positions[node].cwiseAbs().maxCoeff() < 1e100)) {
+      const Eigen::Vector3d& p = cutter.positions[node];
+      if (!p.allFinite() || !(p.cwiseAbs().maxCoeff() < largest_coordinate)) {
         error = {Error::Kind::not_finite,
                  "point " + std::to_string(node) +
-                     " of the cutter has a coordinate that is NaN, infinite or beyond 1e100",
+                     " of the cutter has a coordinate that is NaN, infinite or beyond 1e50",
                  node};
+        return false;
+      }
+      if (p.cwiseAbs().maxCoeff() > farthest_corner(distances)) {
+        error = {
+            Error::Kind::too_far,
+            "point " + std::to_string(node) +
+                " of the cutter is so far away that the cut would be off by more than the merge distances",
+            node};
         return false;
       }
     }
@@ -115,7 +126,7 @@ Result<Changes> Cutter::cut(HybridMesh& mesh, const TriangleMesh& cutter) {
   timings = {};
   Stopwatch watch;
   Error error{};
-  if (!check_cutter(cutter, error)) return error;
+  if (!check_cutter(cutter, memory_->distances, error)) return error;
   if (!memory_->broad_phase.update(mesh, error)) return error;
   watch.lap(timings.broad_phase);
 
@@ -129,8 +140,9 @@ Result<Changes> Cutter::cut(HybridMesh& mesh, const TriangleMesh& cutter) {
   nothing.version_before = nothing.version_after = mesh.topology_version;
   // The same cut again does nothing. Left to the steps below, a line that merging has led aside would be
   // clipped by its own cut. That it was called is forgotten, so that the nodes of the cut stay recent.
-  if (!lines.empty() && lines == memory_->lines) return nothing;
+  if (!lines.empty() && lines == memory_->lines && mesh.state == memory_->state) return nothing;
   memory_->lines = std::move(lines);
+  memory_->state = mesh.state;
   ++mesh.cut_count;
   memory_->previous_cut = context.this_cut;
   if (works.empty()) {
@@ -150,6 +162,11 @@ Result<Changes> Cutter::cut(HybridMesh& mesh, const TriangleMesh& cutter) {
     arrange_triangle(work, boundary, context);
     // A work whose only change is a cut along one of its sides needs its polygons, too.
     polygons.push_back(weld_slivers(mesh, work, context));
+    if (!keeps_all_fragments(work, polygons.back())) {
+      work.lines.clear();
+      arrange_triangle(work, boundary, context);
+      polygons.back() = weld_slivers(mesh, work, context);
+    }
     remember_centres(work, next_centres);
   }
   std::sort(next_centres.on_edges.begin(), next_centres.on_edges.end());
@@ -182,6 +199,7 @@ Result<Changes> Cutter::cut(HybridMesh& mesh, const TriangleMesh& cutter) {
 
   triangulate_polygons(mesh, works, log);
   update_vertex_nodes(mesh, log);
+  mesh.state = memory_->state = new_state();
   memory_->broad_phase.add(mesh, log.triangle_copies);
   Changes changes = publish(mesh, std::move(log));
   changes.version_before = mesh.topology_version;

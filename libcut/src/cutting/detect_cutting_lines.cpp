@@ -33,9 +33,13 @@ PhysicsFace physics_face(const HybridMesh& mesh, const PhysicsTriangle& triangle
 
 double contact_slack(const MergeDistances& distances, const TriangleMesh& cutter) {
   double largest = 0;
-  for (const auto& p : cutter.positions) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+  for (const auto& t : cutter.triangles)
+    for (const std::uint32_t node : t)
+      largest = std::max(largest, cutter.positions[node].cwiseAbs().maxCoeff());
   return std::max(distances.edge * 0x1p-12, largest * 0x1p-46);
 }
+
+double farthest_corner(const MergeDistances& distances) { return distances.edge * 0x1p-6 / 0x1p-46; }
 
 Detection detect_cutting_lines(const HybridMesh& mesh, const TriangleMesh& cutter,
                                std::vector<CandidatePair> candidates, double slack) {

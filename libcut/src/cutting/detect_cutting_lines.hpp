@@ -23,6 +23,10 @@ struct CandidatePair {
 /// to rounding.
 double contact_slack(const MergeDistances& distances, const TriangleMesh& cutter);
 
+/// The largest coordinate that a corner of the cutter may have: beyond it the slack that its rounding needs
+/// comes near δe.
+double farthest_corner(const MergeDistances& distances);
+
 /// Where the cutter meets an ancestor's plane, whatever cuts there are in it.
 struct DetectedLine {
   AncestorId ancestor;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "cut/triangle_mesh.hpp"
 #include "lattice/orientation.hpp"
 #include "mesh/vector3.hpp"
 
@@ -29,13 +30,9 @@ std::array<Vector3, 3> inward_vectors(const std::array<Vector3, 3>& corners, con
 
 /// @return false when the triangle has no area to speak of
 bool unit_normal(const std::array<Vector3, 3>& corners, Vector3& normal) {
-  const Vector3 a = corners[1] - corners[0];
-  const Vector3 b = corners[2] - corners[0];
-  const Vector3 n = cross(a, b);
-  const double area = length(n);
-  const double longest = std::max({dot(a, a), dot(b, b), squared_length(corners[2] - corners[1])});
-  if (!(area > 1e-14 * longest)) return false;
-  normal = n / area;
+  if (!has_area(corners[0], corners[1], corners[2])) return false;
+  const Vector3 n = cross(corners[1] - corners[0], corners[2] - corners[0]);
+  normal = n / length(n);
   return true;
 }
 

@@ -32,8 +32,10 @@ bool close_to_chord(LatticePoint a, LatticePoint b, LatticePoint p) {
   return across * across <= 4 * squared && along > 0 && along < lattice::dot(ab, ab);
 }
 
-/// Keeps the points of chain[first..last] that the chain cannot do without, ends left out.
-void keep_needed(const std::vector<LineEnd>& chain, std::size_t first, std::size_t last,
+/// Keeps the points of chain[first..last] that the chain cannot do without, ends left out (Ramer, Douglas,
+/// Peucker). Chains whose furthest point is always near an end are divided in the middle from some depth on,
+/// so that neither the stack nor the time grow with the square of their length.
+void keep_needed(const std::vector<LineEnd>& chain, std::size_t first, std::size_t last, unsigned depth,
                  std::vector<LineEnd>& kept) {
   std::size_t furthest = first;
   double distance = -1;
@@ -48,9 +50,11 @@ void keep_needed(const std::vector<LineEnd>& chain, std::size_t first, std::size
     furthest = i;
   }
   if (all_close) return;
-  keep_needed(chain, first, furthest, kept);
+  constexpr unsigned deep = 40;
+  if (depth >= deep) furthest = first + (last - first) / 2;
+  keep_needed(chain, first, furthest, depth + 1, kept);
   kept.push_back(chain[furthest]);
-  keep_needed(chain, furthest, last, kept);
+  keep_needed(chain, furthest, last, depth + 1, kept);
 }
 
 bool free_point(const LineEnd& end) {
@@ -106,7 +110,7 @@ void join_collinear_lines(std::vector<CuttingLine>& lines) {
     }
     kept.clear();
     kept.push_back(chain.front());
-    keep_needed(chain, 0, chain.size() - 1, kept);
+    keep_needed(chain, 0, chain.size() - 1, 0, kept);
     kept.push_back(chain.back());
     for (std::size_t k = 0; k + 1 < kept.size(); ++k)
       if (kept[k].point != kept[k + 1].point)

@@ -79,19 +79,23 @@ void merge_on_cut_edges(TriangleWork& work, const CutContext& context) {
       });
     }
 
-  // From the last edge to the first, so that removing one leaves the others where they are.
-  std::vector<GraphEdge> parts;
+  // From the last edge to the first, so that removing one leaves the others where they are. All go before any
+  // node comes: a node leads the edges through its cell that are in the graph, and numbers them anew.
+  std::vector<GraphEdge> whole;
   for (auto entry = divided.rbegin(); entry != divided.rend(); ++entry) {
-    GraphEdge part = work.graph.edges[entry->first];
-    const Index last = part.to;
-    for (const LatticePoint p : entry->second) {
-      part.to = lattice::find_or_add_node(work.graph, p);
+    whole.push_back(work.graph.edges[entry->first]);
+    work.graph.edges.erase(work.graph.edges.begin() + entry->first);
+  }
+  std::vector<GraphEdge> parts;
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    GraphEdge part = whole[i];
+    for (const LatticePoint p : divided[whole.size() - 1 - i].second) {
+      part.to = lattice::insert_node(work.graph, p);
       parts.push_back(part);
       part.from = part.to;
     }
-    part.to = last;
+    part.to = whole[i].to;
     parts.push_back(part);
-    work.graph.edges.erase(work.graph.edges.begin() + entry->first);
   }
   lattice::insert_edges(work.graph, std::move(parts));
 }

@@ -100,7 +100,16 @@ bool weld_smallest(const HybridMesh& mesh, TriangleWork& work, const DisjointPol
 
 }  // namespace
 
+bool keeps_all_fragments(const TriangleWork& work, const DisjointPolygons& polygons) {
+  if (!work.graph.complete) return false;
+  std::vector<std::uint8_t> kept(work.before.polygons.size(), 0);
+  for (const Index parent : polygons.parent)
+    if (parent < kept.size()) kept[parent] = 1;
+  return std::find(kept.begin(), kept.end(), 0) == kept.end();
+}
+
 DisjointPolygons weld_slivers(const HybridMesh& mesh, TriangleWork& work, const CutContext& context) {
+  if (!work.graph.complete) return {};
   DisjointPolygons polygons = detect_disjoint_polygons(work);
   while (weld_smallest(mesh, work, polygons, context)) {
     work.changed = differs_from_before(work);

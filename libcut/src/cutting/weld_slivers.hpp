@@ -13,6 +13,11 @@ namespace cut {
 /// by taking back new edges between it and one neighbour; its other sides stay cut, so that nothing that a
 /// cut has separated is joined again. Without this, the same cut made twice leaves crumbs where merging had
 /// led its line beside where it was detected.
+/// Nothing when the work's graph is not complete.
 DisjointPolygons weld_slivers(const HybridMesh& mesh, TriangleWork& work, const CutContext& context);
+
+/// False when rounding has left nothing of a fragment that was there before, or has failed: the lines must
+/// not be cut.
+bool keeps_all_fragments(const TriangleWork& work, const DisjointPolygons& polygons);
 
 }  // namespace cut

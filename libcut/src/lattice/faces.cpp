@@ -193,11 +193,13 @@ Faces find_faces(std::span<const LatticePoint> points, std::span<const FaceEdge>
   const Walks loops = walk_all(g, is_contour);
   const auto append = [&](Index loop) {
     Face& face = result.faces[result.face_of_half_edge[loops.start[loop]]];
-    Index h = loops.start[loop];
+    const Index start = loops.start[loop];
+    Index h = start;
     do {
       face.corners.push_back(g.origin(h));
       h = g.next(h, is_contour);
-    } while (h != loops.start[loop]);
+    } while (h != start && h != none &&
+             face.corners.size() <= 2 * g.edges.size());  // it ends earlier when planar
     face.loop_ends.push_back(static_cast<Index>(face.corners.size()));
   };
   for (const bool hull : {true, false})

@@ -62,8 +62,18 @@ class Rounder {
     if (e.from != e.to) todo_.push_back(e);
   }
 
+  /// Each round settles an edge, or splits one or two. Snap rounding ends since a split brings the parts
+  /// nearer to their nodes and there are only so many nodes near an edge; the budget is for what that
+  /// argument leaves out
+  /// (`join`, where a crossing rounds to a point behind an end).
   void run() {
+    const std::size_t n = graph_.points.size() + graph_.edges.size() + todo_.size() + 64;
+    std::size_t budget = 8 * n * n;
     while (!todo_.empty()) {
+      if (budget-- == 0) {
+        graph_.complete = false;
+        return;
+      }
       const GraphEdge e = todo_.back();
       todo_.pop_back();
       if (merged_with_equal(e)) continue;

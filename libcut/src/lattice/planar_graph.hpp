@@ -26,6 +26,9 @@ struct GraphEdge {
 struct PlanarGraph {
   std::vector<LatticePoint> points;  ///< all different
   std::vector<GraphEdge> edges;      ///< planar between calls
+  /// False when rounding did not come to an end within its budget, which no input is known to reach: the
+  /// graph has lost edges then and is not to be used.
+  bool complete = true;
 };
 
 /// Index of the node at p, which is appended when there is none.
@@ -36,7 +39,7 @@ std::uint32_t find_or_add_node(PlanarGraph& graph, LatticePoint p);
 std::uint32_t insert_node(PlanarGraph& graph, LatticePoint p);
 
 /// Adds edges between existing nodes. An edge that falls onto an old one vanishes in it. Edges between two
-/// points of the same side of the triangle stay on that side. O(edges · new edges) in the worst case.
+/// points of the same side of the triangle stay on that side. O(crossings · edges).
 void insert_edges(PlanarGraph& graph, std::vector<GraphEdge> new_edges);
 
 }  // namespace cut::lattice

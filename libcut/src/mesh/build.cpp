@@ -9,6 +9,7 @@
 
 #include "cut/hybrid_mesh.hpp"
 #include "lattice/components.hpp"
+#include "mesh/state.hpp"
 #include "mesh/vector3.hpp"
 
 namespace cut {
@@ -37,9 +38,10 @@ bool check_elements(const TriangleMesh& mesh, Error& error) {
     return false;
   }
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-    if (mesh.positions[i].allFinite() && mesh.positions[i].cwiseAbs().maxCoeff() < 1e100) continue;
+    if (mesh.positions[i].allFinite() && mesh.positions[i].cwiseAbs().maxCoeff() < largest_coordinate)
+      continue;
     error = {Error::Kind::not_finite,
-             "point " + std::to_string(i) + " has a coordinate that is NaN, infinite or beyond 1e100", i};
+             "point " + std::to_string(i) + " has a coordinate that is NaN, infinite or beyond 1e50", i};
     return false;
   }
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -52,9 +54,7 @@ bool check_elements(const TriangleMesh& mesh, Error& error) {
                i};
       return false;
     }
-    const Eigen::Vector3d a = mesh.positions[t[1]] - mesh.positions[t[0]];
-    const Eigen::Vector3d b = mesh.positions[t[2]] - mesh.positions[t[0]];
-    if (squared_length(cross(a, b)) > 0) continue;
+    if (has_area(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]])) continue;
     error = {Error::Kind::degenerate_triangle, name_triangle(i) + " has no area", i};
     return false;
   }
@@ -279,6 +279,7 @@ Result<HybridMesh> HybridMesh::build(const TriangleMesh& input) {
   split_fans(input, fans, ancestors);
   fill_incidences(ancestors);
   fill_buffers(mesh);
+  mesh.state = new_state();
   return mesh;
 }
 

@@ -1,8 +1,10 @@
+// The default merge distances, and the check of those that a user gives (§4.2).
 #include "cut/merge_distances.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <string>
+#include <cstdio>
 
 namespace cut {
 
@@ -20,11 +22,13 @@ Result<MergeDistances> checked(const MergeDistances& d, const HybridMesh& mesh) 
     longest = std::max(longest, mesh.ancestors.rest_length(AncestorEdgeId{e}));
   const double unit = longest / lattice_size;
   if (std::isfinite(d.cut) && d.cut >= d.node && d.node >= d.edge && d.edge > unit) return d;
-  return Error{Error::Kind::bad_merge_distances,
-               "the merge distances must satisfy cut >= node >= edge > " + std::to_string(unit) +
-                   " (the longest edge / 2^25), but they are cut = " + std::to_string(d.cut) +
-                   ", node = " + std::to_string(d.node) + ", edge = " + std::to_string(d.edge),
-               0};
+  std::array<char, 256> text{};
+  std::snprintf(
+      text.data(), text.size(),
+      "the merge distances must satisfy cut >= node >= edge > %.6g (the longest edge / 2^25), but they are "
+      "cut = %.6g, node = %.6g, edge = %.6g",
+      unit, d.cut, d.node, d.edge);
+  return Error{Error::Kind::bad_merge_distances, text.data(), 0};
 }
 
 }  // namespace cut

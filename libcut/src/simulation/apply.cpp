@@ -1,19 +1,12 @@
-// Takes over a cut (§4.9, "changes are propagated to the MSDM simulation"). In: the change set and the mesh
+// Takes over a cut (§4.10, "changes are propagated to the MSDM simulation"). In: the change set and the mesh
 // after it. Out: arrays with new entries for copied nodes and changed springs. Only what the change set
 // names, and in conserving mode the triangles around it, is touched.
 #include <algorithm>
 
 #include "cut/simulation.hpp"
-#include "mesh/vector3.hpp"
 
 namespace cut {
 namespace {
-
-/// Summed up as the step does it, so that a spring at rest has no force at all.
-double rest_length(const AncestorMesh& ancestors, AncestorEdgeId edge) {
-  const auto& ends = ancestors.edges[edge.index()].nodes;
-  return length(ancestors.rest_positions[ends[1].index()] - ancestors.rest_positions[ends[0].index()]);
-}
 
 template <class T>
 void sort_unique(std::vector<T>& values) {
@@ -58,7 +51,7 @@ void Simulation::set_spring(SpringId spring, const HybridMesh& mesh) {
   spring_count_ = spring_count_ + (used ? 1 : 0) - (was_used ? 1 : 0);
   springs_.nodes[i] =
       used ? std::array{value.nodes[0].value, value.nodes[1].value} : std::array<std::uint32_t, 2>{0, 0};
-  springs_.rest_length[i] = used ? rest_length(mesh.ancestors, value.edge) : 0;
+  springs_.rest_length[i] = used ? mesh.ancestors.rest_length(value.edge) : 0;
   springs_.stiffness[i] = used ? material_.stiffness : 0;
   springs_.damping[i] = used ? material_.damping : 0;
 }
