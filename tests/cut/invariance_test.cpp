@@ -23,6 +23,33 @@ std::vector<double> areas(const cut::HybridMesh& mesh) {
   return result;
 }
 
+/// Length of all cuts, at rest.
+double cut_length(const cut::HybridMesh& mesh) {
+  double sum = 0;
+  for (std::size_t t = 0; t < mesh.ancestors.triangles.size(); ++t) {
+    const cut::Arrangement* arrangement = mesh.arrangement(cut::AncestorId{t});
+    if (arrangement == nullptr) continue;
+    const auto& corners = mesh.ancestors.triangles[t].nodes;
+    const auto place = [&](std::uint32_t node) {
+      Vector3 p = Vector3::Zero();
+      for (std::size_t k = 0; k < 3; ++k)
+        p += mesh.ancestors.rest_positions[corners[k].index()] * (arrangement->nodes[node].point[k] / 0x1p25);
+      return p;
+    };
+    for (const cut::CutEdge& e : arrangement->edges) sum += (place(e.to) - place(e.from)).norm();
+  }
+  for (std::size_t e = 0; e < mesh.ancestors.edges.size(); ++e) {
+    const cut::EdgeState* state = mesh.edge_state(cut::AncestorEdgeId{e});
+    for (std::size_t k = 0; state != nullptr && k < state->cut.size(); ++k) {
+      const std::int32_t from = k == 0 ? 0 : state->nodes[k - 1].t;
+      const std::int32_t to = k == state->nodes.size() ? cut::lattice_size : state->nodes[k].t;
+      if (state->cut[k] != 0)
+        sum += mesh.ancestors.rest_length(cut::AncestorEdgeId{e}) * ((to - from) / 0x1p25);
+    }
+  }
+  return sum;
+}
+
 void check_same_areas(const std::vector<double>& a, const std::vector<double>& b, double tolerance) {
   REQUIRE(a.size() == b.size());
   for (std::size_t i = 0; i < a.size(); ++i) CHECK(std::abs(a[i] - b[i]) <= tolerance);
@@ -180,6 +207,21 @@ TEST_CASE("many small steps give the same pieces as one cut") {
     for (int i = 0; i < steps; ++i)
       often.cut(wall({from + (to - from) * i / steps, from + (to - from) * (i + 1) / steps}));
     check_same_areas(areas(once.mesh), areas(often.mesh), 0.12);
+  }
+}
+
+TEST_CASE("a blade that begins inside of a triangle cuts however small its steps") {
+  const Vector3 from{0.61, 0.83, 0};
+  const Vector3 to{3.32, 3.07, 0};
+  for (const int steps : {1, 10, 57, 400, 3000}) {
+    CAPTURE(steps);
+    Session s(scenes::grid(4, 4));
+    for (int i = 0; i < steps; ++i)
+      s.cut(wall({from + (to - from) * i / steps, from + (to - from) * (i + 1) / steps}));
+    CHECK(cut_length(s.mesh) == doctest::Approx((to - from).norm()).epsilon(0.06));
+    const auto pieces = cut::pieces(s.mesh).list;
+    REQUIRE(pieces.size() == 1);
+    CHECK(pieces[0].boundary_loops == 2);  // a slit that reaches no border
   }
 }
 

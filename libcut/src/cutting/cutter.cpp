@@ -101,12 +101,18 @@ void keep_stamps(HybridMesh& mesh, const TriangleWork& work, const CutContext& c
     if (work.stamps[k] == context.this_cut) stored.nodes[k].stamp = context.this_cut;
 }
 
-/// Notes where the ends of a work's lines that were not on a side were detected, and where they went.
-void remember_centres(const TriangleWork& work, ClusterCentres& centres) {
-  for (const CuttingLine& line : work.lines)
+/// Notes where the ends of a work's lines that were not on a side were detected, and where they went; and
+/// where lines have vanished without a node.
+void remember_centres(const TriangleWork& work, const Arrangement& now, ClusterCentres& centres) {
+  for (const CuttingLine& line : work.lines) {
     for (const LineEnd& end : {line.a, line.b})
       if (end.on != LineEnd::On::physics_edge && end.detected != end.point)
         centres.inside.push_back({work.ancestor, end.detected, end.point});
+    if (line.a.point == line.b.point &&
+        std::none_of(now.nodes.begin(), now.nodes.end(),
+                     [&](const ArrangementNode& n) { return n.point == line.a.point; }))
+      centres.begun.push_back({work.ancestor, line.a.point});
+  }
 }
 
 }  // namespace
@@ -167,10 +173,13 @@ Result<Changes> Cutter::cut(HybridMesh& mesh, const TriangleMesh& cutter) {
       arrange_triangle(work, boundary, context);
       polygons.back() = weld_slivers(mesh, work, context);
     }
-    remember_centres(work, next_centres);
+    remember_centres(work, polygons.back().arrangement, next_centres);
   }
   std::sort(next_centres.on_edges.begin(), next_centres.on_edges.end());
   std::sort(next_centres.inside.begin(), next_centres.inside.end());
+  std::sort(next_centres.begun.begin(), next_centres.begun.end());
+  next_centres.begun.erase(std::unique(next_centres.begun.begin(), next_centres.begun.end()),
+                           next_centres.begun.end());
   memory_->centres = std::move(next_centres);
   ChangeLog log;
   std::vector<AncestorNodeId> touched;  // physics nodes whose copies may have come apart

@@ -53,7 +53,7 @@ class EndpointMerger {
     } else if (end.on == LineEnd::On::cut_edge) {
       merge_along_cut_edge(end);
     } else if (const auto node = nearest_node(end.point, polygon)) {
-      end = {point(*node), LineEnd::On::node, *node};
+      end = *node;
     } else {
       merge_to_edge(end, polygon);
     }
@@ -74,29 +74,33 @@ class EndpointMerger {
     return context_.recent(work_.before.nodes[node].stamp) ? context_.distances.cut : context_.distances.node;
   }
 
-  /// The nearest node of the previous cut within δc, else the nearest node within δn.
-  [[nodiscard]] std::optional<std::uint32_t> nearest_node(LatticePoint p, std::uint32_t polygon) const {
-    std::optional<std::uint32_t> best;
+  /// The nearest node, or place where a cut has begun, of the previous cut within δc; else the nearest node
+  /// within δn.
+  [[nodiscard]] std::optional<LineEnd> nearest_node(LatticePoint p, std::uint32_t polygon) const {
+    std::optional<LineEnd> best;
     bool best_recent = false;
     double best_distance = 0;
-    const auto consider = [&](std::uint32_t n, LatticePoint from, bool recent, double reach) {
+    const auto consider = [&](const LineEnd& target, LatticePoint from, bool recent, double reach) {
       const double distance = work_.metric.length(p, from);
       if (distance > reach) return;
       if (best && (best_recent > recent || (best_recent == recent && best_distance <= distance))) return;
-      if (!visible(p, point(n), work_.before.edges, [&](std::uint32_t i) { return point(i); })) return;
-      best = n;
+      if (!visible(p, target.point, work_.before.edges, [&](std::uint32_t i) { return point(i); })) return;
+      best = target;
       best_recent = recent;
       best_distance = distance;
     };
+    const auto at_node = [&](std::uint32_t n) { return LineEnd{point(n), LineEnd::On::node, n}; };
     for (const std::uint32_t n : nodes_.of(polygon))
-      consider(n, point(n), context_.recent(work_.before.nodes[n].stamp), reach(n));
+      consider(at_node(n), point(n), context_.recent(work_.before.nodes[n].stamp), reach(n));
+    for (const ClusterCentres::Begun& b : context_.centres.begun_in(work_.ancestor))
+      consider({b.point, LineEnd::On::nothing, 0}, b.point, true, context_.distances.cut);
     const auto& centres = context_.centres.inside;
     for (auto c =
              std::lower_bound(centres.begin(), centres.end(), ClusterCentres::Inside{work_.ancestor, {}, {}},
                               [](const auto& l, const auto& r) { return l.ancestor < r.ancestor; });
          c != centres.end() && c->ancestor == work_.ancestor; ++c)
       for (const std::uint32_t n : nodes_.of(polygon))
-        if (point(n) == c->node) consider(n, c->detected, true, context_.same_place());
+        if (point(n) == c->node) consider(at_node(n), c->detected, true, context_.same_place());
     return best;
   }
 
@@ -186,6 +190,8 @@ void merge_free_endpoints(TriangleWork& work, const std::vector<LatticePoint>& b
       for (const LineEnd& end : {line.a, line.b})
         if (line.polygon == polygon && end.on == LineEnd::On::cut_edge)
           clusters.insert_or_merge(flat(end.point), end.point);
+    for (const ClusterCentres::Begun& b : context.centres.begun_in(work.ancestor))
+      if (!nearest_visible(clusters, b.point)) clusters.insert_or_merge(flat(b.point), b.point);
     for (; i < open.size() && open[i].first == polygon; ++i) {
       const LatticePoint p = open[i].second.point;
       if (!nearest_visible(clusters, p)) clusters.insert_or_merge(flat(p), p);

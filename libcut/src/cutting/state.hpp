@@ -12,8 +12,10 @@
 ///   copy_physics_nodes      physics nodes and springs follow
 ///   copy_boundary_nodes     render vertices follow, then triangulate_polygons
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "cut/arrangement.hpp"
@@ -83,8 +85,26 @@ struct ClusterCentres {
     LatticePoint node;
     auto operator<=>(const Inside&) const = default;
   };
+  /// Where a line vanished, since both its ends merged to the same place and there is no node: a blade has
+  /// begun to cut and has not come far enough yet. The place attracts line ends as a node of the previous cut
+  /// does.
+  struct Begun {
+    AncestorId ancestor;
+    LatticePoint point;
+    auto operator<=>(const Begun&) const = default;
+  };
   std::vector<OnEdge> on_edges;  ///< sorted
   std::vector<Inside> inside;    ///< sorted
+  std::vector<Begun> begun;      ///< sorted, each once
+
+  [[nodiscard]] std::span<const Begun> begun_in(AncestorId ancestor) const {
+    const auto first =
+        std::lower_bound(begun.begin(), begun.end(), Begun{ancestor, {}},
+                         [](const Begun& l, const Begun& r) { return l.ancestor < r.ancestor; });
+    auto last = first;
+    while (last != begun.end() && last->ancestor == ancestor) ++last;
+    return {first, last};
+  }
 };
 
 /// What all steps need to know of this call.
