@@ -4,13 +4,16 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <new>
+#include <sstream>
 
 #include "snip/commands/commands.hpp"
 #include "snip/commands/report.hpp"
+#include "snip/console.hpp"
 
 namespace snip {
+namespace {
 
-int run_command_line(int argc, const char* const* argv) {
+int run(int argc, const char* const* argv) {
   CLI::App app{"Cuts cloth and other thin surfaces", "snip"};
   app.set_version_flag("--version", "snip " SNIP_VERSION);
   app.require_subcommand(1);
@@ -24,14 +27,33 @@ int run_command_line(int argc, const char* const* argv) {
     app.parse(argc, argv);
     return exit_code;
   } catch (const CLI::Success& help_or_version) {
-    return app.exit(help_or_version);
+    std::ostringstream text;
+    const int code = app.exit(help_or_version, text, text);
+    print_out(text.str());
+    return code;
   } catch (const CLI::ParseError& error) {
     report_error({std::string(error.what()) + " (see snip --help)"});
     return exit_bad_usage;
+  }
+}
+
+}  // namespace
+
+int run_command_line(int argc, const char* const* argv) {
+  reserve_standard_streams();
+  int exit_code = exit_bad_input;
+  try {
+    exit_code = run(argc, argv);
   } catch (const std::bad_alloc&) {
     report_error({"not enough memory"});
-    return exit_bad_input;
+  } catch (const std::exception& error) {
+    report_error({std::string("stopped by an unexpected error: ") + error.what()});
   }
+  if (const Result<> flushed = flush_stdout(); !flushed && exit_code == exit_ok) {
+    report_error(flushed.error());
+    exit_code = exit_bad_input;
+  }
+  return exit_code;
 }
 
 }  // namespace snip

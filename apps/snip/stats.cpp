@@ -1,8 +1,6 @@
 // Statistics as JSON; see the header.
 #include "snip/stats.hpp"
 
-#include "snip/whole_file.hpp"
-
 namespace snip {
 
 Json to_json(const Counts& counts) {
@@ -29,10 +27,6 @@ double total_area(const std::vector<Piece>& pieces) {
   double area = 0;
   for (const Piece& piece : pieces) area += piece.area;
   return area;
-}
-
-Result<> write_json(const std::filesystem::path& path, const Json& json) {
-  return write_whole_file(path, json.dump(2) + "\n");
 }
 
 }  // namespace snip

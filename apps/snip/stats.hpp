@@ -3,7 +3,6 @@
 #pragma once
 #include <chrono>
 #include <cstddef>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -11,7 +10,6 @@
 #include <vector>
 
 #include "snip/pieces.hpp"
-#include "snip/result.hpp"
 
 namespace snip {
 
@@ -46,8 +44,5 @@ Json to_json(const Stopwatch& timings);
 /// A list of {area, triangles, boundary_loops, euler_characteristic}.
 Json to_json(const std::vector<Piece>& pieces);
 double total_area(const std::vector<Piece>& pieces);
-
-/// Writes the JSON, indented; the file is complete or not there at all.
-Result<> write_json(const std::filesystem::path& path, const Json& json);
 
 }  // namespace snip

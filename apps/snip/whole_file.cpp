@@ -1,14 +1,14 @@
 // Reading and writing files as a whole; see the header.
 #include "snip/whole_file.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cerrno>
+#include <exception>
 #include <fstream>
-#include <new>
 #include <system_error>
+
+#include "snip/output_file.hpp"
 
 namespace snip {
 namespace {
@@ -16,23 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string reason(int code) { return std::generic_category().message(code); }
-
-// POSIX calls rather than streams: only they tell that a disk is full when the file is closed.
-int write_all(const fs::path& path, std::string_view bytes) {
-  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (file < 0) return errno;
-  int failure = 0;
-  while (!bytes.empty() && failure == 0) {
-    const ::ssize_t written = ::write(file, bytes.data(), bytes.size());
-    if (written >= 0)
-      bytes.remove_prefix(static_cast<std::size_t>(written));
-    else if (errno != EINTR)
-      failure = errno;
-  }
-  if (failure == 0 && ::fsync(file) != 0) failure = errno;
-  if (::close(file) != 0 && failure == 0) failure = errno;
-  return failure;
-}
 
 }  // namespace
 
@@ -60,29 +43,10 @@ Result<std::string> read_whole_file(const fs::path& path) {
 }
 
 Result<> write_whole_file(const fs::path& path, std::string_view bytes) {
-  const auto failed = [&](const std::string& why) {
-    return Error{fmt::format("{}: cannot be written: {}", path.string(), why)};
-  };
-  std::error_code error;
-  fs::path target = path;
-  if (fs::is_symlink(path, error)) {
-    target = fs::weakly_canonical(path, error);
-    if (error) return failed(error.message());
-  }
-  // A target that is not there yet counts as an error; any real one shows when the file is opened.
-  if (fs::is_directory(target, error)) return failed("it is a directory");
-
-  fs::path temporary = target;
-  temporary += fmt::format(".{}.part", ::getpid());
-  if (const int failure = write_all(temporary, bytes)) {
-    if (failure != EEXIST) fs::remove(temporary, error);
-    return failed(reason(failure));
-  }
-  fs::rename(temporary, target, error);
-  if (!error) return {};
-  const std::string why = error.message();
-  fs::remove(temporary, error);
-  return failed(why);
+  Result<OutputFile> file = OutputFile::create(path);
+  if (!file) return file.error();
+  if (const Result<> written = file->write(bytes); !written) return written;
+  return file->publish();
 }
 
 }  // namespace snip

@@ -1,5 +1,5 @@
 /// @file
-/// Files as a whole: read at once, and written so that a half-written one is never seen under its name.
+/// Files as a whole: read at once, and written at once.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -12,8 +12,7 @@ namespace snip {
 /// The bytes of a regular file.
 Result<std::string> read_whole_file(const std::filesystem::path& path);
 
-/// Writes beside the target under another name, and renames when all bytes are on the disk. On an error the
-/// target is what it was before, and nothing is left behind. A symbolic link is followed.
+/// Writes an `OutputFile` with these bytes. On an error the target is what it was before.
 Result<> write_whole_file(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace snip

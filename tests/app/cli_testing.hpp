@@ -29,6 +29,16 @@ inline Outcome snip(const mesh_testing::TemporaryDirectory& directory, const std
   return outcome;
 }
 
+/// The exit code of a line for the shell that is run in the directory, where `snip` is the program as built.
+/// 128 and more when a signal ended it.
+inline int shell(const mesh_testing::TemporaryDirectory& directory, const std::string& line) {
+  const std::string program = SNIP_PROGRAM;
+  const int status = std::system(fmt::format("cd '{}' && PATH='{}':$PATH; {}", directory.path().string(),
+                                             program.substr(0, program.rfind('/')), line)
+                                     .c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
+}
+
 /// The text is one line that begins as errors do.
 inline bool is_one_error(const std::string& text) {
   return text.starts_with("snip: error: ") && text.find('\n') == text.size() - 1;

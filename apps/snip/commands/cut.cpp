@@ -14,9 +14,9 @@
 #include "snip/clean.hpp"
 #include "snip/command_line.hpp"
 #include "snip/commands/commands.hpp"
+#include "snip/commands/outputs.hpp"
 #include "snip/commands/report.hpp"
 #include "snip/merge_distances.hpp"
-#include "snip/mesh_file/mesh_file.hpp"
 #include "snip/rendered_mesh.hpp"
 #include "snip/stats.hpp"
 
@@ -26,9 +26,8 @@ namespace {
 struct CutOptions {
   std::string cloth;
   std::string cutter;
-  std::string out;
+  OutputPaths out;
   GivenMergeDistances merge;
-  std::optional<std::string> stats;
 };
 
 Counts physics_counts(const cut::HybridMesh& mesh) {
@@ -73,7 +72,7 @@ void add_steps(Stopwatch& stopwatch, const cut::StepTimings& steps) {
 }
 
 Result<> run(const CutOptions& options) {
-  const Result<MeshFormat> out_format = format_of(options.out);
+  const Result<MeshFormat> out_format = check(options.out, {options.cloth, options.cutter});
   if (!out_format) return out_format.error();
   Stopwatch stopwatch;
   const Result<Mesh> cloth = read_clean_mesh(options.cloth);
@@ -102,13 +101,14 @@ Result<> run(const CutOptions& options) {
   const Pieces after = find_pieces(result.positions, result.triangles);
   const std::vector<std::size_t> piece_begin = sort_by_piece(result, after);
   stopwatch.lap("pieces");
-  if (const Result<> written = write_mesh(options.out, result, piece_begin); !written) return written;
+  Result<OutputFile> file = completed_file(options.out.mesh, print_mesh(*out_format, result, piece_begin));
+  if (!file) return file.error();
   stopwatch.lap("write");
-  if (!options.stats) return {};
+  if (!options.out.stats) return file->publish();
   const std::vector<cut::Violation> violations = cut::validate(*hybrid);
   stopwatch.lap("validate");
-  return write_json(
-      *options.stats,
+  return publish(
+      *file, *options.out.stats,
       {{"pieces", to_json(after.pieces)},
        {"area_before", total_area(before.pieces)},
        {"area_after", total_area(after.pieces)},
@@ -127,7 +127,7 @@ void add_cut_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<CutOptions>();
   command->add_option("CLOTH", options->cloth, "Mesh to cut (.obj, .ply, .stl, .off)")->required();
   command->add_option("CUTTER", options->cutter, "Mesh to cut it with (.obj, .ply, .stl, .off)")->required();
-  command->add_option("-o,--output", options->out, "Where the pieces go (.obj, .ply, .stl, .off)")
+  command->add_option("-o,--output", options->out.mesh, "Where the pieces go (.obj, .ply, .stl, .off)")
       ->required();
   command->add_option("--merge-cut", options->merge.cut,
                       "Merge the ends of a cut with nodes of the previous cut within this distance "
@@ -136,7 +136,7 @@ void add_cut_command(CLI::App& app, int& exit_code) {
                       "... with other nodes within this distance (default: 1/20)");
   command->add_option("--merge-edge", options->merge.edge,
                       "... with edges within this distance (default: 1/40)");
-  command->add_option("--stats", options->stats, "Write pieces, areas, counts and times as JSON");
+  command->add_option("--stats", options->out.stats, "Write pieces, areas, counts and times as JSON");
   command->callback([options, &exit_code] {
     if (const Result<> result = run(*options); !result) {
       report_error(result.error());

@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <string>
 
 #include "snip/clean.hpp"
+#include "snip/console.hpp"
 #include "snip/mesh_file/mesh_file.hpp"
 
 namespace snip {
@@ -15,8 +15,9 @@ namespace {
 
 void report(std::string_view kind, std::string_view message) {
   std::string line(message);
-  std::ranges::replace(line, '\n', ' ');
-  fmt::print(stderr, "snip: {}: {}\n", kind, line);
+  // A name in it may hold anything; a terminal would obey some of that.
+  std::ranges::replace_if(line, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+  print_err(fmt::format("snip: {}: {}\n", kind, line));
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 
 namespace snip {
 
-/// Writes `snip: error: ...` to stderr. Line feeds within the message become blanks.
+/// Writes `snip: error: ...` to stderr. Control characters within the message become blanks.
 void report_error(const Error& error);
 /// Writes `snip: warning: ...` to stderr.
 void report_warning(std::string_view message);

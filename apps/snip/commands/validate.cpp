@@ -11,6 +11,7 @@
 #include "snip/command_line.hpp"
 #include "snip/commands/commands.hpp"
 #include "snip/commands/report.hpp"
+#include "snip/console.hpp"
 #include "snip/pieces.hpp"
 
 namespace snip {
@@ -22,16 +23,16 @@ Result<> run(const std::string& path) {
   const auto hybrid = cut::HybridMesh::build(to_triangle_mesh(*mesh));
   if (!hybrid) return explain(hybrid.error(), *mesh, path);
   const Pieces pieces = find_pieces(mesh->positions, mesh->triangles);
-  fmt::print("{}: {} vertices, {} triangles, {} piece{}\n", path, mesh->positions.size(),
-             mesh->triangles.size(), pieces.pieces.size(), pieces.pieces.size() == 1 ? "" : "s");
+  print_out(fmt::format("{}: {} vertices, {} triangles, {} piece{}\n", path, mesh->positions.size(),
+                        mesh->triangles.size(), pieces.pieces.size(), pieces.pieces.size() == 1 ? "" : "s"));
   for (std::size_t p = 0; p < pieces.pieces.size(); ++p) {
     const Piece& piece = pieces.pieces[p];
-    fmt::print("piece_{}: area {:.6g}, {} triangles, {} boundary loops, Euler characteristic {}\n", p,
-               piece.area, piece.triangles, piece.boundary_loops, piece.euler_characteristic);
+    print_out(fmt::format("piece_{}: area {:.6g}, {} triangles, {} boundary loops, Euler characteristic {}\n",
+                          p, piece.area, piece.triangles, piece.boundary_loops, piece.euler_characteristic));
   }
   const std::vector<cut::Violation> violations = cut::validate(*hybrid);
   for (const cut::Violation& violation : violations)
-    fmt::print("{}: {}\n", violation.rule, violation.message);
+    print_out(fmt::format("{}: {}\n", violation.rule, violation.message));
   if (!violations.empty()) return Error{fmt::format("{}: {} violations found", path, violations.size())};
   return {};
 }

@@ -7,8 +7,8 @@
 #include "snip/clean.hpp"
 #include "snip/command_line.hpp"
 #include "snip/commands/commands.hpp"
+#include "snip/commands/outputs.hpp"
 #include "snip/commands/report.hpp"
-#include "snip/mesh_file/mesh_file.hpp"
 #include "snip/stats.hpp"
 #include "snip/weld.hpp"
 
@@ -18,12 +18,11 @@ namespace {
 struct WeldOptions {
   std::string mesh;
   double distance = 0;
-  std::string out;
-  std::optional<std::string> stats;
+  OutputPaths out;
 };
 
 Result<> run(const WeldOptions& options) {
-  const Result<MeshFormat> out_format = format_of(options.out);
+  const Result<MeshFormat> out_format = check(options.out, {options.mesh});
   if (!out_format) return out_format.error();
   Stopwatch stopwatch;
   Result<Mesh> mesh = read_mesh(options.mesh);
@@ -42,15 +41,16 @@ Result<> run(const WeldOptions& options) {
   const Pieces pieces = find_pieces(mesh->positions, mesh->triangles);
   const std::vector<std::size_t> piece_begin = sort_by_piece(*mesh, pieces);
   stopwatch.lap("pieces");
-  if (const Result<> written = write_mesh(options.out, *mesh, piece_begin); !written) return written;
+  Result<OutputFile> file = completed_file(options.out.mesh, print_mesh(*out_format, *mesh, piece_begin));
+  if (!file) return file.error();
   stopwatch.lap("write");
-  if (!options.stats) return {};
-  return write_json(*options.stats,
-                    {{"pieces", to_json(pieces.pieces)},
-                     {"vertices", {{"before", vertices_before}, {"after", mesh->positions.size()}}},
-                     {"triangles", {{"before", triangles_before}, {"after", mesh->triangles.size()}}},
-                     {"dropped", {{"degenerate", cleaned->degenerate}, {"duplicate", cleaned->duplicates}}},
-                     {"timings_ms", to_json(stopwatch)}});
+  if (!options.out.stats) return file->publish();
+  return publish(*file, *options.out.stats,
+                 {{"pieces", to_json(pieces.pieces)},
+                  {"vertices", {{"before", vertices_before}, {"after", mesh->positions.size()}}},
+                  {"triangles", {{"before", triangles_before}, {"after", mesh->triangles.size()}}},
+                  {"dropped", {{"degenerate", cleaned->degenerate}, {"duplicate", cleaned->duplicates}}},
+                  {"timings_ms", to_json(stopwatch)}});
 }
 
 }  // namespace
@@ -62,8 +62,8 @@ void add_weld_command(CLI::App& app, int& exit_code) {
   command->add_option("-d,--distance", options->distance, "Merge vertices no farther apart than this")
       ->required()
       ->check(CLI::PositiveNumber);
-  command->add_option("-o,--output", options->out, "Mesh to write (.obj, .ply, .stl, .off)")->required();
-  command->add_option("--stats", options->stats, "Write what was done as JSON");
+  command->add_option("-o,--output", options->out.mesh, "Mesh to write (.obj, .ply, .stl, .off)")->required();
+  command->add_option("--stats", options->out.stats, "Write what was done as JSON");
   command->callback([options, &exit_code] {
     if (const Result<> result = run(*options); !result) {
       report_error(result.error());

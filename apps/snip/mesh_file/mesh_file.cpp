@@ -54,12 +54,9 @@ Result<Mesh> read_mesh(const std::filesystem::path& path) {
   return parse_mesh(*bytes, *format, path.string());
 }
 
-Result<> write_mesh(const std::filesystem::path& path, const Mesh& mesh,
-                    std::span<const std::size_t> piece_begin) {
-  const Result<MeshFormat> format = format_of(path);
-  if (!format) return format.error();
+std::string print_mesh(MeshFormat format, const Mesh& mesh, std::span<const std::size_t> piece_begin) {
   std::string bytes;
-  switch (*format) {
+  switch (format) {
     case MeshFormat::obj:
       write_obj(mesh, piece_begin, bytes);
       break;
@@ -73,7 +70,14 @@ Result<> write_mesh(const std::filesystem::path& path, const Mesh& mesh,
       write_off(mesh, bytes);
       break;
   }
-  return write_whole_file(path, bytes);
+  return bytes;
+}
+
+Result<> write_mesh(const std::filesystem::path& path, const Mesh& mesh,
+                    std::span<const std::size_t> piece_begin) {
+  const Result<MeshFormat> format = format_of(path);
+  if (!format) return format.error();
+  return write_whole_file(path, print_mesh(*format, mesh, piece_begin));
 }
 
 }  // namespace snip

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "snip/mesh_file/mesh.hpp"
@@ -23,8 +24,11 @@ Result<Mesh> read_mesh(const std::filesystem::path& path);
 /// Memory: a small multiple of the bytes, whatever they say.
 Result<Mesh> parse_mesh(std::string_view bytes, MeshFormat format, std::string_view name);
 
-/// Writes the mesh; the file is complete or not there at all. The triangles of piece k are those from
-/// piece_begin[k] up to piece_begin[k + 1] or the end; no pieces at all is one nameless piece.
+/// The bytes of a mesh file. The triangles of piece k are those from piece_begin[k] up to piece_begin[k + 1]
+/// or the end; no pieces at all is one nameless piece.
+std::string print_mesh(MeshFormat format, const Mesh& mesh, std::span<const std::size_t> piece_begin = {});
+
+/// Writes these bytes in the format of the name; the file is complete or not there at all.
 Result<> write_mesh(const std::filesystem::path& path, const Mesh& mesh,
                     std::span<const std::size_t> piece_begin = {});
 

@@ -1,5 +1,5 @@
 /// @file
-/// frames.csv: a line for each frame.
+/// frames.csv: a line for each frame. In: a frame. Out: text, so that the table need not be kept in memory.
 #pragma once
 #include <string>
 

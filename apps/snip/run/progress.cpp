@@ -5,7 +5,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
+
+#include "snip/console.hpp"
 
 namespace snip {
 
@@ -17,13 +18,13 @@ std::string progress_bar(std::size_t done, std::size_t total) {
 Progress::Progress(std::size_t total) : total_(total), terminal_(isatty(STDERR_FILENO) == 1) {}
 
 Progress::~Progress() {
-  if (bar_shown_) fmt::print(stderr, "\r\x1b[K");
+  if (bar_shown_) print_err("\r\x1b[K");
 }
 
 void Progress::update(std::size_t done, const std::string& note) {
   if (!terminal_) {
     const std::size_t quarter = total_ > 0 ? done * 4 / total_ : 4;
-    if (quarter > quarter_) fmt::print(stderr, "frame {} of {}, {}\n", done, total_, note);
+    if (quarter > quarter_) print_err(fmt::format("frame {} of {}, {}\n", done, total_, note));
     quarter_ = std::max(quarter, quarter_);
     return;
   }
@@ -31,8 +32,7 @@ void Progress::update(std::size_t done, const std::string& note) {
   if (done < total_ && bar_shown_ && now - last_ < std::chrono::milliseconds(50)) return;
   last_ = now;
   bar_shown_ = true;
-  fmt::print(stderr, "\r{} frame {} of {}, {}\x1b[K", progress_bar(done, total_), done, total_, note);
-  std::fflush(stderr);
+  print_err(fmt::format("\r{} frame {} of {}, {}\x1b[K", progress_bar(done, total_), done, total_, note));
 }
 
 }  // namespace snip

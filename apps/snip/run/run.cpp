@@ -10,25 +10,24 @@
 
 #include "cut/validate.hpp"
 #include "snip/commands/report.hpp"
+#include "snip/console.hpp"
 #include "snip/mesh_file/mesh_file.hpp"
+#include "snip/output_file.hpp"
 #include "snip/pieces.hpp"
 #include "snip/rendered_mesh.hpp"
 #include "snip/run/frame_table.hpp"
 #include "snip/run/picture_files.hpp"
 #include "snip/run/progress.hpp"
 #include "snip/run/scene_file.hpp"
-#include "snip/whole_file.hpp"
 
 namespace snip {
 namespace {
 
 /// What the frames added up to.
 struct Totals {
-  std::string table = frame_header();
   double cut_ms = 0, slowest_cut_ms = 0, simulation_ms = 0;
 
   void add(const Frame& frame) {
-    table += frame_row(frame);
     cut_ms += frame.cut_ms;
     slowest_cut_ms = std::max(slowest_cut_ms, frame.cut_ms);
     simulation_ms += frame.simulation_ms;
@@ -36,11 +35,13 @@ struct Totals {
 };
 
 /// All frames. An error of the simulation is returned; the run then stands at the last good frame.
-Result<> all_frames(SceneRun& run, PictureFiles* pictures, Totals& totals) {
+Result<> all_frames(SceneRun& run, OutputFile* table, PictureFiles* pictures, Totals& totals) {
   const std::size_t count = run.scene().frames;
   Progress progress(count);
   for (;;) {
     totals.add(run.frame());
+    if (table)
+      if (const auto written = table->write(frame_row(run.frame())); !written) return written;
     const bool is_last = run.frame().number == count;
     if (pictures)
       if (const auto taken = pictures->take(run, is_last); !taken) return taken;
@@ -60,22 +61,22 @@ Result<> write_mesh_of(const SceneRun& run, const std::filesystem::path& path) {
 void print_summary(const SceneRun& run, const Totals& totals, const PictureFiles* pictures,
                    const std::filesystem::path& folder) {
   const Frame& frame = run.frame();
-  fmt::print(
+  print_out(fmt::format(
       "{} frames, {:.3g} s: {} piece{}, {} physics nodes, {} edges, {} triangles, {} render triangles\n",
       frame.number, frame.time, frame.pieces, frame.pieces == 1 ? "" : "s", frame.physics_nodes,
-      frame.physics_edges, frame.physics_triangles, frame.render_triangles);
+      frame.physics_edges, frame.physics_triangles, frame.render_triangles));
   const double seconds = totals.simulation_ms / 1000;
   const auto updates = static_cast<double>(run.simulation().updates());
-  fmt::print("MSDM updates per second: {:.0f} ({:.0f} updates in {:.3g} s)\n",
-             seconds > 0 ? updates / seconds : 0, updates, seconds);
-  fmt::print("cutting: {:.3g} ms in all, {:.3g} ms in the slowest frame\n", totals.cut_ms,
-             totals.slowest_cut_ms);
+  print_out(fmt::format("MSDM updates per second: {:.0f} ({:.0f} updates in {:.3g} s)\n",
+                        seconds > 0 ? updates / seconds : 0, updates, seconds));
+  print_out(fmt::format("cutting: {:.3g} ms in all, {:.3g} ms in the slowest frame\n", totals.cut_ms,
+                        totals.slowest_cut_ms));
   std::string written = run.scene().output.csv ? "frames.csv" : "";
   const auto add = [&](const std::string& item) { written += (written.empty() ? "" : ", ") + item; };
   if (!run.scene().output.mesh.empty()) add(run.scene().output.mesh);
   if (pictures && pictures->picture_count() > 0) add(fmt::format("{} pictures", pictures->picture_count()));
   if (pictures && pictures->animation_count() > 0) add("animation.webp");
-  if (!written.empty()) fmt::print("written to {}: {}\n", folder.string(), written);
+  if (!written.empty()) print_out(fmt::format("written to {}: {}\n", folder.string(), written));
 }
 
 }  // namespace
@@ -94,6 +95,15 @@ Result<> run_scene(const RunOptions& options) {
   std::filesystem::create_directories(folder, failure);
   if (failure)
     return Error{fmt::format("{}: the folder cannot be made: {}", folder.string(), failure.message())};
+  if (!scene->output.mesh.empty())
+    if (const auto target = output_target(folder / scene->output.mesh); !target) return target.error();
+  std::optional<OutputFile> table;
+  if (scene->output.csv) {
+    auto created = OutputFile::create(folder / "frames.csv");
+    if (!created) return created.error();
+    table = std::move(*created);
+    if (const auto written = table->write(frame_header()); !written) return written;
+  }
   std::optional<PictureFiles> pictures;
   if (!options.no_images) {
     auto created = PictureFiles::create(*run, folder);
@@ -102,10 +112,10 @@ Result<> run_scene(const RunOptions& options) {
   }
 
   Totals totals;
-  const Result<> ran = all_frames(*run, pictures ? &*pictures : nullptr, totals);
+  const Result<> ran = all_frames(*run, table ? &*table : nullptr, pictures ? &*pictures : nullptr, totals);
   // What there is gets written, even if the run broke down.
-  if (scene->output.csv)
-    if (const auto written = write_whole_file(folder / "frames.csv", totals.table); !written) return written;
+  if (table)
+    if (const auto published = table->publish(); !published) return published;
   if (!scene->output.mesh.empty())
     if (const auto written = write_mesh_of(*run, folder / scene->output.mesh); !written) return written;
   if (pictures)
