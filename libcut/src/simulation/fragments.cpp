@@ -112,7 +112,7 @@ void Simulation::update_copies(const HybridMesh& mesh, AncestorNodeId node) {
   });
   for (auto share = shares.begin(); share != shares.end();) {
     Share sum = *share;
-    while (++share != shares.end() && share->copy == sum.copy) {
+    for (++share; share != shares.end() && share->copy == sum.copy; ++share) {
       sum.mass += share->mass;
       sum.rendered |= share->rendered;
     }
