@@ -3,11 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <limits>
-#include <numeric>
-#include <tuple>
+#include <utility>
 
 namespace snip {
 namespace {
@@ -15,11 +12,7 @@ namespace {
 bool is_degenerate(const Mesh& mesh, const Triangle& triangle) {
   const auto& [a, b, c] = triangle;
   if (a == b || b == c || c == a) return true;
-  const Eigen::Vector3d ab = mesh.positions[b] - mesh.positions[a];
-  const Eigen::Vector3d bc = mesh.positions[c] - mesh.positions[b];
-  const Eigen::Vector3d ca = mesh.positions[a] - mesh.positions[c];
-  const double longest = std::max({ab.squaredNorm(), bc.squaredNorm(), ca.squaredNorm()});
-  return !(ab.cross(bc).norm() > 4 * std::numeric_limits<double>::epsilon() * longest);
+  return !cut::has_area(mesh.positions[a], mesh.positions[b], mesh.positions[c]);
 }
 
 Triangle sorted(Triangle triangle) {

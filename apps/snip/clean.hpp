@@ -19,8 +19,8 @@ struct CleanReport {
   std::size_t duplicates = 0;  ///< triangles with the corners of an earlier one, in either winding
 };
 
-/// Drops degenerate and duplicate triangles; a triangle has no area when its corners are collinear to
-/// rounding. Points and attributes stay, with their numbers. Complexity: O(n log n).
+/// Drops degenerate and duplicate triangles; `cut::has_area` tells what is degenerate. Points and attributes
+/// stay, with their numbers. Complexity: O(n log n).
 /// @return what was dropped, or an error when no triangle is left
 Result<CleanReport> clean(Mesh& mesh, std::string_view name);
 

@@ -101,6 +101,7 @@ TEST_CASE("obj: what is wrong is named with its line") {
   CHECK(refusal("\nv 0 nan 0\n") == "input:2: coordinate is not finite: 'nan'");
   CHECK(refusal("v 0 -inf 0\n") == "input:1: coordinate is not finite: '-inf'");
   CHECK(refusal("v 0 1e999 0\n") == "input:1: coordinate is too large: '1e999'");
+  CHECK(refusal("v 0 1e50 0\n") == "input:1: coordinate is too large: '1e50'");  // as libcut has it
   CHECK(refusal("v 0 -2e50 0\n") == "input:1: coordinate is too large: '-2e50'");
   CHECK(refusal("v 0 0 0 0 0\n") == "input:1: a vertex with 5 numbers: expected 3, 4, 6 or 7");
   CHECK(refusal("v 0 0 0 0 0 0 0 0\n") == "input:1: a vertex with more than 7 numbers");

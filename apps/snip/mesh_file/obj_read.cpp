@@ -75,7 +75,7 @@ class ObjReader {
       if (count == numbers.size()) fail_at_line(line_, "a vertex with more than 7 numbers");
       numbers[count] =
           scan::to_number(word, line_, count < 3 ? "coordinate" : "number behind the coordinates");
-      if (count < 3 && std::abs(numbers[count]) > max_coordinate)
+      if (count < 3 && std::abs(numbers[count]) >= cut::largest_coordinate)
         fail_at_line(line_, "coordinate is too large: {}", quote(word));
       ++count;
     }

@@ -90,7 +90,8 @@ class OffReader {
     for (double& value : position) {
       const std::string_view word = words.next();
       value = scan::to_number(word, line, "coordinate");
-      if (std::abs(value) > max_coordinate) fail_at_line(line, "coordinate is too large: {}", quote(word));
+      if (std::abs(value) >= cut::largest_coordinate)
+        fail_at_line(line, "coordinate is too large: {}", quote(word));
     }
     soup_.positions.push_back(position);
     if (has_normals_) {

@@ -167,7 +167,7 @@ void read_vertices(Rows& rows, const PlyElement& element, PolygonSoup& soup) {
       values[slots[i]] = value;
       if (!std::isfinite(value))
         rows.fail_here("property '{}' of vertex {} is not finite: {}", property.name, row, value);
-      if (slots[i] <= z && std::abs(value) > max_coordinate)
+      if (slots[i] <= z && std::abs(value) >= cut::largest_coordinate)
         rows.fail_here("coordinate '{}' of vertex {} is too large: {}", property.name, row, value);
     }
     rows.end_row();

@@ -9,12 +9,10 @@
 #include <optional>
 #include <vector>
 
+#include "cut/triangle_mesh.hpp"
 #include "snip/mesh_file/mesh.hpp"
 
 namespace snip {
-
-/// Coordinates beyond this overflow in the square of an area, so readers refuse them.
-inline constexpr double max_coordinate = 1e50;
 
 struct PolygonSoup {
   std::vector<Eigen::Vector3d> positions;

@@ -111,7 +111,7 @@ class AsciiReader {
         for (double& value : position) {
           const std::string_view word = words.next();
           value = scan::to_number(word, lines_.number(), "coordinate");
-          if (std::abs(value) > max_coordinate)
+          if (std::abs(value) >= cut::largest_coordinate)
             fail_at_line(lines_.number(), "coordinate is too large: {}", quote(word));
         }
         corners_.add(position);

@@ -18,7 +18,7 @@ inline constexpr std::size_t max_polygon_corners = 10000;
 /// (also one that touches itself, as a hole joined to the outline by a bridge does) exactly once; for any
 /// other they are some triangulation of its corners. A quadrilateral is split along the diagonal that
 /// leaves the better shaped triangles. Appends nothing for less than three corners.
-/// @pre polygon.size() <= max_polygon_corners, coordinates are finite and below max_coordinate
+/// @pre polygon.size() <= max_polygon_corners, coordinates are finite and below cut::largest_coordinate
 /// Complexity: O(n^2)
 void triangulate_polygon(std::span<const Eigen::Vector3d> polygon, std::vector<Triangle>& triangles);
 
