@@ -1,5 +1,5 @@
-// Range reduction to an eighth of a turn to either side of a quarter turn, then the Taylor series, whose
-// first term left out is below 5e-17 there.
+// Sine and cosine, see circle.hpp: range reduction to an eighth of a turn to either side of a quarter turn,
+// then the Taylor series, whose first term left out is below 5e-17 there.
 #include "scenes/circle.hpp"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Completes the merge distances (§4.2) that a user left open; see the header.
 #include "snip/merge_distances.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Connected pieces; see the header.
+// Connected pieces of a triangle list; see the header, also for what sets them apart from `cut::pieces`.
 #include "snip/pieces.hpp"
 
 #include <Eigen/Geometry>

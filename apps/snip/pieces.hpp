@@ -1,5 +1,11 @@
 /// @file
-/// The connected pieces of a triangle list, with their areas and their topology.
+/// The connected pieces of a triangle list, with their areas and their topology. In: points and triangles as
+/// files have them. Out: pieces.
+///
+/// `cut::pieces` wants a hybrid mesh. That is not to be had here: `weld` works on meshes that cannot be cut
+/// (three triangles at an edge), `validate` and the statistics speak of the mesh as it is in the file, where
+/// triangles that share a vertex only are one piece, and the writers sort the triangles of a file by piece.
+/// Of the render mesh both say the same; a test compares them.
 #pragma once
 #include <Eigen/Core>
 #include <cstddef>

@@ -1,8 +1,21 @@
 // Connected pieces of a triangle list, and cleaning.
 #include "snip/pieces.hpp"
 
+#include <rapidcheck.h>
+
+#include <cmath>
+#include <scenes/cloths.hpp>
+#include <scenes/cutters.hpp>
+#include <scenes/random.hpp>
+#include <scenes/surfaces.hpp>
+#include <set>
+#include <tuple>
+
+#include "cut/cutter.hpp"
+#include "cut/pieces.hpp"
 #include "mesh_testing.hpp"
 #include "snip/clean.hpp"
+#include "snip/rendered_mesh.hpp"
 
 using snip::Mesh;
 using snip::Triangle;
@@ -124,6 +137,49 @@ TEST_CASE("pieces: largest first, equal ones by their first triangle; triangles 
   for (std::size_t t = 0; t < 18; ++t) CHECK(mesh.triangles[t][0] >= 4);
 }
 
+TEST_CASE("pieces: the render mesh has the pieces that libcut counts, loop by loop") {
+  CHECK(rc::check([](std::uint64_t seed) {
+    scenes::Random random(seed);
+    std::vector<cut::TriangleMesh> cloths{scenes::grid(4, 4), scenes::random_sheet(4, 4, 1, seed),
+                                          scenes::moebius_strip(8, 2), scenes::torus(6, 5),
+                                          scenes::fan(7, 2)};
+    cloths.push_back(scenes::joined({cloths[0], scenes::moved(cloths[4], {9, 9, 0})}));
+    Mesh input;
+    const cut::TriangleMesh& cloth = cloths[random.below(cloths.size())];
+    input.positions = cloth.positions;
+    input.triangles = cloth.triangles;
+    input.polygon_of_triangle.resize(input.triangles.size());
+    auto hybrid = cut::HybridMesh::build(cloth);
+    RC_ASSERT(hybrid.has_value());
+    cut::Cutter cutter(cut::default_merge_distances(*hybrid));
+    const auto point = [&] { return Eigen::Vector3d(random.between(-2, 5), random.between(-2, 5), 0); };
+    for (std::uint64_t cuts = random.below(8); cuts > 0; --cuts) {
+      // Walls between any points, through nodes of the grid, and rings.
+      const auto a = point(), b = point();
+      const Eigen::Vector3d high(0, 0, 8);
+      const std::uint64_t kind = random.below(3);
+      const auto wall = kind == 0 ? scenes::ribbon({a, b}, high)
+                        : kind == 1
+                            ? scenes::ribbon({a.array().round().matrix(), b.array().round().matrix()}, high)
+                            : scenes::tube({a, b, point()}, high);
+      RC_ASSERT(cutter.cut(*hybrid, wall).has_value());
+    }
+    const Mesh output = snip::rendered_mesh(input, *hybrid);
+    const auto ours = snip::find_pieces(output.positions, output.triangles).pieces;
+    const auto theirs = cut::pieces(*hybrid).list;
+    RC_ASSERT(ours.size() == theirs.size());
+    // Sorted by areas that are added up in another way: equal ones may be in another order.
+    using Key = std::tuple<std::size_t, std::size_t, std::int64_t>;
+    std::multiset<Key> our_keys, their_keys;
+    for (std::size_t p = 0; p < ours.size(); ++p) {
+      our_keys.emplace(ours[p].triangles, ours[p].boundary_loops, ours[p].euler_characteristic);
+      their_keys.emplace(theirs[p].triangles, theirs[p].boundary_loops, theirs[p].euler_characteristic);
+      RC_ASSERT(std::abs(ours[p].area - theirs[p].area) < 1e-9);
+    }
+    RC_ASSERT(our_keys == their_keys);
+  }));
+}
+
 TEST_CASE("clean: degenerate and repeated triangles go, with their attributes") {
   Mesh mesh = grid(1, 1);
   const Mesh good = mesh;
@@ -155,6 +211,22 @@ TEST_CASE("clean: collinear to rounding is degenerate, a needle is not") {
   mesh.polygon_count = 2;
   REQUIRE(snip::clean(mesh, "name"));
   CHECK(mesh.triangles == std::vector<Triangle>{{0, 3, 4}});
+}
+
+TEST_CASE("clean: what is kept has area for libcut too, what is dropped has none") {
+  // A needle beside a good triangle, from none to wide enough, near the limit in small steps.
+  for (double height = 1e-17; height < 1e-12; height *= 1.1) {
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, -height, 0}};
+    mesh.triangles = {{0, 1, 2}, {0, 3, 1}};
+    mesh.polygon_of_triangle = {0, 1};
+    mesh.polygon_count = 2;
+    const auto report = snip::clean(mesh, "name");
+    REQUIRE(report);
+    const bool wide = cut::has_area({0, 0, 0}, {0.3, -height, 0}, {1, 0, 0});
+    CHECK(report->degenerate == (wide ? 0 : 1));
+    CHECK(cut::HybridMesh::build(snip::to_triangle_mesh(mesh)).has_value());
+  }
 }
 
 TEST_CASE("clean: an error when nothing is left") {
