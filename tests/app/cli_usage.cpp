@@ -23,12 +23,26 @@ TEST_CASE("cli: help for the program and for every command, version") {
 
 TEST_CASE("cli: bad usage is one line and exit code 2") {
   const TemporaryDirectory directory;
-  for (const char* arguments :
-       {"", "fold", "cut", "cut a.obj", "cut a.obj b.obj", "cut a.obj b.obj -o",
-        "cut a.obj b.obj -o c.obj d.obj", "cut a.obj b.obj -o c.obj --merge-cut wide",
-        "cut a.obj b.obj -o c.obj --unknown", "weld a.obj -o b.obj", "weld a.obj -d 0 -o b.obj",
-        "weld a.obj -d -1 -o b.obj", "weld a.obj -d x -o b.obj", "weld a.obj -d 1", "validate",
-        "validate a.obj b.obj"}) {
+  for (const char* arguments : {"",
+                                "fold",
+                                "cut",
+                                "cut a.obj",
+                                "cut a.obj b.obj",
+                                "cut a.obj b.obj -o",
+                                "cut a.obj b.obj -o c.obj d.obj",
+                                "cut a.obj b.obj -o c.obj --merge-cut wide",
+                                "cut a.obj b.obj -o c.obj --unknown",
+                                "weld a.obj -o b.obj",
+                                "weld a.obj -d 0 -o b.obj",
+                                "weld a.obj -d -1 -o b.obj",
+                                "weld a.obj -d x -o b.obj",
+                                "weld a.obj -d 1",
+                                "validate",
+                                "validate a.obj b.obj",
+                                "run",
+                                "run s.json --frames 0",
+                                "run s.json --frames 10000001",
+                                "run s.json --frames 1e3"}) {
     const auto outcome = cli_testing::snip(directory, arguments);
     CHECK_MESSAGE(outcome.exit_code == 2, arguments);
     CHECK_MESSAGE(is_one_error(outcome.err), arguments << ": " << outcome.err);

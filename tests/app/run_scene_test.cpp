@@ -290,12 +290,20 @@ TEST_CASE("a run that blows up says so, and leaves what there is up to the last 
       snip::run_scene({folder.write("s.json", "{" + sheet + stiff), folder.path / "out", {}, false});
   REQUIRE_FALSE(ran);
   CHECK(ran.error().message.rfind("frame ", 0) == 0);
-  CHECK(ran.error().message.find("node") != std::string::npos);
+  CHECK(ran.error().message.find("the simulation blew up at node ") != std::string::npos);
+  CHECK(ran.error().message.find("the time step of 0.01 s is more than the ") != std::string::npos);
   const auto lines = lines_of(text_of(folder.path / "out/frames.csv"));
   CHECK(lines.size() >= 2);
   CHECK(lines.size() < 52);
   CHECK(snip::read_mesh(folder.path / "out/final.obj"));
   CHECK(fs::exists(folder.path / "out/animation.webp"));
+}
+
+TEST_CASE("a run that blows up in small steps blames the forces") {
+  SceneRun run = start(scene_of("{" + sheet + R"(, "gravity": [1e30, 0, 0]})"));
+  const auto advanced = run.advance();
+  REQUIRE_FALSE(advanced);
+  CHECK(advanced.error().message.find(": the forces are too large") != std::string::npos);
 }
 
 TEST_CASE("a folder that cannot be made is an error") {
@@ -304,6 +312,15 @@ TEST_CASE("a folder that cannot be made is an error") {
   const auto ran = snip::run_scene({scene, scene / "out", 1, true});
   REQUIRE_FALSE(ran);
   CHECK(ran.error().message.find("cannot be made") != std::string::npos);
+}
+
+TEST_CASE("a generated cloth that cannot be cut is named with its place, and no file is spoken of") {
+  const auto run = SceneRun::start(
+      scene_of("{\n"
+               R"("cloth": {"shape": "plane", "centre": [0, 0, 0], "u": [1, 0, 0], "v": [2, 0, 0]}})"),
+      ".");
+  REQUIRE_FALSE(run);
+  CHECK(run.error().message == "s.json:2: /cloth: triangle 0 has no area");
 }
 
 TEST_CASE("a picture shows physics, anchors, cuts and cutters, unless they are switched off") {

@@ -7,6 +7,7 @@
 #include "snip/command_line.hpp"
 #include "snip/commands/commands.hpp"
 #include "snip/commands/report.hpp"
+#include "snip/run/scene.hpp"
 
 namespace snip {
 
@@ -17,7 +18,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
   command->add_option("-o,--output", options->output_folder,
                       "Folder to write to (default: the scene's name)");
   command->add_option("--frames", options->frames, "Number of frames, in place of the scene's own")
-      ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000'000}));
+      ->check(CLI::Range(std::size_t{1}, most_frames));
   command->add_flag("--no-images", options->no_images, "Write no pictures");
   command->callback([options, &exit_code] {
     if (const Result<> result = run_scene(*options); !result) {

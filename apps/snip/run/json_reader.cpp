@@ -144,12 +144,17 @@ std::string_view JsonValue::one_of(const std::vector<std::string_view>& keys) co
 
 double JsonValue::number() const {
   if (!json_->is_number()) wrong_type("a number");
-  return json_->get<double>();
+  const double value = json_->get<double>();
+  if (!(std::abs(value) < most_magnitude))
+    fail(fmt::format("has to be smaller than {} in magnitude, is {}", most_magnitude, value));
+  return value;
 }
 
 double JsonValue::positive() const {
   const double value = number();
   if (!(value > 0)) fail(fmt::format("has to be greater than 0, is {}", value));
+  if (!(value > least_magnitude))
+    fail(fmt::format("has to be greater than {}, is {}", least_magnitude, value));
   return value;
 }
 
@@ -175,7 +180,9 @@ bool JsonValue::boolean() const {
 
 std::string JsonValue::text() const {
   if (!json_->is_string()) wrong_type("a text");
-  return json_->get<std::string>();
+  const auto value = json_->get<std::string>();
+  if (value.find('\0') != std::string::npos) fail("cannot have the character 0 in it");
+  return value;
 }
 
 std::size_t JsonValue::word(const std::vector<std::string_view>& words) const {
@@ -194,7 +201,10 @@ Eigen::Vector3d JsonValue::vector() const {
 
 Eigen::Vector3d JsonValue::nonzero_vector() const {
   const Eigen::Vector3d value = vector();
-  if (!(value.squaredNorm() > 0)) fail("cannot be zero");
+  const double largest = value.cwiseAbs().maxCoeff();
+  if (largest == 0) fail("cannot be zero");
+  if (!(largest > least_magnitude))
+    fail(fmt::format("has to be longer than {}, is {}", least_magnitude, largest));
   return value;
 }
 

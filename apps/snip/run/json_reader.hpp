@@ -12,10 +12,17 @@
 #include <string_view>
 #include <vector>
 
+#include "cut/triangle_mesh.hpp"
 #include "snip/result.hpp"
 #include "snip/run/json_lines.hpp"
 
 namespace snip {
+
+/// Numbers are smaller than this in magnitude; it is what libcut takes as a coordinate, and products of
+/// several such numbers are finite.
+inline constexpr double most_magnitude = cut::largest_coordinate;
+/// Numbers and lengths that have to be positive are greater than this.
+inline constexpr double least_magnitude = 1e-50;
 
 /// Thrown by JsonValue and caught by read_json.
 struct JsonError : std::runtime_error {
@@ -47,7 +54,7 @@ class JsonValue {
   /// Exactly one of these keys has to be there; returns which.
   [[nodiscard]] std::string_view one_of(const std::vector<std::string_view>& keys) const;
 
-  // Values. Each fails unless the type and the range fit.
+  // Values. Each fails unless the type and the range fit (most_magnitude).
   [[nodiscard]] double number() const;
   [[nodiscard]] double positive() const;
   [[nodiscard]] double not_negative() const;

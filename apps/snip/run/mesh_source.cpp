@@ -15,8 +15,8 @@ namespace {
 using cut::TriangleMesh;
 using Eigen::Vector3d;
 
-/// Triangles a generated mesh can have: several gigabytes, more than anybody means to ask for.
-constexpr std::size_t most_triangles = 20'000'000;
+/// Triangles a generated mesh can have: a cloth of that many takes 4 GB.
+constexpr std::size_t most_triangles = 6'000'000;
 
 double positive_or(const JsonValue& value, const char* key, double otherwise) {
   const auto given = value.find(key);
@@ -28,7 +28,8 @@ std::array<std::size_t, 2> counts(const JsonValue& value, const char* first, con
                                   std::size_t least, std::size_t most = most_triangles / 2) {
   const std::size_t a = value.at(first).count(least, most / least),
                     b = value.at(second).count(least, most / least);
-  if (a > most / b) value.fail(fmt::format("{} times {} can be at most {}", first, second, most));
+  if (a > most / b)
+    value.fail(fmt::format("{} times {} can be at most {}, is {} times {}", first, second, most, a, b));
   return {a, b};
 }
 
@@ -88,7 +89,7 @@ const std::vector<MeshShape>& mesh_shapes() {
       {"hexagon",
        {"rings", "side"},
        [](const JsonValue& v) {
-         return scenes::hexagon(v.at("rings").count(1, 1800), positive_or(v, "side", 1));
+         return scenes::hexagon(v.at("rings").count(1, 1000), positive_or(v, "side", 1));
        }},
       {"fan",
        {"count", "radius"},
@@ -107,7 +108,7 @@ const std::vector<MeshShape>& mesh_shapes() {
        {"cells", "side", "height"},
        [](const JsonValue& v) {
          const auto height = v.find("height");
-         return scenes::curved_sheet(v.at("cells").count(1, 3000), positive_or(v, "side", 1),
+         return scenes::curved_sheet(v.at("cells").count(1, 1732), positive_or(v, "side", 1),
                                      height ? height->number() : 0.1);
        }},
       {"sphere",

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "snip/output_file.hpp"
 #include "snip/whole_file.hpp"
 
 namespace snip {
@@ -25,6 +26,20 @@ int milliseconds(std::size_t k, double seconds_each) {
   return static_cast<int>(std::clamp<long long>(end_of(k + 1) - end_of(k), 20, 60'000));
 }
 
+constexpr const char* animation_name = "animation.webp";
+
+/// An animation is kept in memory until its end, compressed; a WebP file can have 4 GiB.
+Result<> animation_fits(const Scene& scene) {
+  const OutputSettings& output = scene.output;
+  const std::size_t most =
+      std::min(most_animation_pictures, most_animation_pixels / (output.width * output.height));
+  if (scene.frames / output.animation_interval < most) return {};
+  return Error{
+      fmt::format("{}: an animation of {} by {} pixels can have at most {} pictures: {} frames want an "
+                  "animation_interval of {}, or 0 for no animation",
+                  output.place, output.width, output.height, most, scene.frames, scene.frames / most + 1)};
+}
+
 }  // namespace
 
 PictureFiles::PictureFiles(const SceneRun& run, const std::filesystem::path& folder)
@@ -34,6 +49,8 @@ Result<PictureFiles> PictureFiles::create(const SceneRun& run, const std::filesy
   PictureFiles files(run, folder);
   const OutputSettings& output = run.scene().output;
   if (output.animation_interval > 0) {
+    if (const auto fits = animation_fits(run.scene()); !fits) return fits.error();
+    if (const auto target = output_target(folder / animation_name); !target) return target.error();
     auto animation = Animation::create(output.width, output.height);
     if (!animation) return animation.error();
     files.animation_ = std::move(*animation);
@@ -64,7 +81,7 @@ Result<> PictureFiles::finish() {
   if (!animation_) return {};
   const auto bytes = animation_->finish();
   if (!bytes) return bytes.error();
-  return write_whole_file(folder_ / "animation.webp", as_text(*bytes));
+  return write_whole_file(folder_ / animation_name, as_text(*bytes));
 }
 
 }  // namespace snip

@@ -19,6 +19,10 @@
 
 namespace snip {
 
+/// What a scene can ask for at most (docs/scene_file.md, Limits).
+inline constexpr std::size_t most_frames = 10'000'000, most_pixels = 4096 * 4096,
+                             most_animation_pictures = 20'000, most_animation_pixels = 10'000'000'000;
+
 /// A mesh from a file or a generated one, and how it is put into the scene.
 struct MeshSource {
   std::filesystem::path file;  ///< relative to the scene file; empty: `generated`
@@ -55,6 +59,7 @@ struct MovingBlade {
   std::vector<Eigen::Vector3d> edge;
   Eigen::Vector3d axis{0, 0, 1};
   std::vector<Keyframe> keyframes;  ///< by increasing time, at least two
+  std::string place;
 };
 
 /// Distances within which cuts are merged (§4, equation 7); those not given are libcut's default.
@@ -73,6 +78,7 @@ struct OutputSettings {
   std::string mesh = "final.obj";  ///< empty: none
   View view;
   std::optional<Eigen::AlignedBox3d> view_box;  ///< what has to be in the picture
+  std::string place;
 };
 
 struct Scene {
@@ -80,6 +86,7 @@ struct Scene {
   MeshSource cloth;
   cut::Material material;
   std::optional<double> mass;  ///< of the whole cloth; given instead of material.density
+  std::string material_place;
   std::vector<Anchor> anchors;
   cut::Surroundings surroundings;
   double time_step = 0.001;

@@ -1,6 +1,8 @@
 // Reads scene files: one function for each object of docs/scene_file.md, in its order.
 #include "snip/run/scene_file.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -41,6 +43,7 @@ Eigen::AlignedBox3d read_box(const JsonValue& value) {
 
 void read_material(const JsonValue& value, Scene& scene) {
   value.allow_keys({"mode", "density", "mass", "stiffness", "damping"});
+  scene.material_place = value.place();
   if (value.has("density") && value.has("mass")) value.fail("only one of density and mass can be given");
   take(value, "mode", scene.material.mode, [](const JsonValue& v) {
     return std::array{cut::MaterialMode::conserving,
@@ -90,6 +93,7 @@ StaticCutter read_static_cutter(const JsonValue& value) {
 MovingBlade read_blade(const JsonValue& value) {
   value.allow_keys({"edge", "axis", "keyframes"});
   MovingBlade blade;
+  blade.place = value.place();
   for (const JsonValue& point : value.at("edge").list(2)) blade.edge.push_back(point.vector());
   take(value, "axis", blade.axis, [](const JsonValue& v) { return v.nonzero_vector(); });
   for (const JsonValue& item : value.at("keyframes").list(2)) {
@@ -127,10 +131,15 @@ OutputSettings read_output(const JsonValue& value) {
   value.allow_keys({"width", "height", "picture_interval", "animation_interval", "colours", "physics",
                     "cutters", "csv", "mesh", "camera"});
   OutputSettings output;
+  output.place = value.place();
   take(value, "width", output.width, count(1, 16383));
   take(value, "height", output.height, count(1, 16383));
-  take(value, "picture_interval", output.picture_interval, count(0, 1'000'000'000));
-  take(value, "animation_interval", output.animation_interval, count(0, 1'000'000'000));
+  if (output.width * output.height > most_pixels)
+    value.at(value.has("width") ? "width" : "height")
+        .fail(fmt::format("width times height can be at most {}, is {} times {}", most_pixels, output.width,
+                          output.height));
+  take(value, "picture_interval", output.picture_interval, count(0, most_frames));
+  take(value, "animation_interval", output.animation_interval, count(0, most_frames));
   take(value, "colours", output.colour_pieces,
        [](const JsonValue& v) { return v.word({"plain", "pieces"}) == 1; });
   take(value, "physics", output.show_physics, boolean);
@@ -167,7 +176,7 @@ void read_scene_object(const JsonValue& value, Scene& scene) {
   read_surroundings(value, scene);
   take(value, "time_step", scene.time_step, positive);
   take(value, "steps_per_frame", scene.steps_per_frame, count(1, 1'000'000));
-  take(value, "frames", scene.frames, count(1, 100'000'000));
+  take(value, "frames", scene.frames, count(1, most_frames));
   take(value, "merge", scene.merge, read_merge);
   if (const auto cutters = value.find("cutters"))
     for (const JsonValue& cutter : cutters->list()) read_cutter(cutter, scene);
@@ -178,6 +187,7 @@ void read_scene_object(const JsonValue& value, Scene& scene) {
 
 Result<Scene> parse_scene(std::string_view text, const std::string& name) {
   Scene scene;
+  scene.material_place = scene.output.place = name;
   if (const auto read =
           read_json(text, name, [&](const JsonValue& value) { read_scene_object(value, scene); });
       !read)

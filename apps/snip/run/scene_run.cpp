@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <numeric>
 #include <scenes/cutters.hpp>
 #include <utility>
 
 #include "snip/clean.hpp"
 #include "snip/commands/report.hpp"
+#include "snip/run/json_reader.hpp"
 
 namespace snip {
 namespace {
@@ -35,7 +37,12 @@ Result<Mesh> load(const MeshSource& source, const std::filesystem::path& folder)
     mesh.polygon_of_triangle.resize(mesh.triangles.size());
     std::iota(mesh.polygon_of_triangle.begin(), mesh.polygon_of_triangle.end(), 0u);
   }
-  for (Eigen::Vector3d& p : mesh.positions) p = source.placement * p;
+  for (Eigen::Vector3d& p : mesh.positions) {
+    p = source.placement * p;
+    if (!(p.cwiseAbs().maxCoeff() < cut::largest_coordinate))
+      return Error{fmt::format("{}: the mesh has a coordinate of {} or more where it is put", source.place,
+                               cut::largest_coordinate)};
+  }
   for (Eigen::Vector3d& n : mesh.normals) n = source.placement.linear() * n;
   return mesh;
 }
@@ -47,6 +54,18 @@ double area(const Mesh& mesh) {
     sum += (mesh.positions[b] - p).cross(mesh.positions[c] - p).norm() / 2;
   }
   return sum;
+}
+
+/// A mass in place of a density is spread over the cloth.
+Result<cut::Material> material_of(const Scene& scene, const Mesh& cloth) {
+  cut::Material material = scene.material;
+  if (!scene.mass) return material;
+  material.density = *scene.mass / area(cloth);
+  if (material.density > least_magnitude && material.density < most_magnitude) return material;
+  return Error{
+      fmt::format("{}: a mass of {} on this cloth is a density of {:.3g}: it has to be greater than {} "
+                  "and smaller than {}",
+                  scene.material_place, *scene.mass, material.density, least_magnitude, most_magnitude)};
 }
 
 std::size_t in_use(const auto& entries, auto is_used) {
@@ -73,13 +92,14 @@ SceneRun::SceneRun(Scene scene, Mesh cloth, cut::HybridMesh mesh, cut::Simulatio
 Result<SceneRun> SceneRun::start(const Scene& scene, const std::filesystem::path& folder) {
   auto cloth = load(scene.cloth, folder);
   if (!cloth) return cloth.error();
-  const std::string name = scene.cloth.file.empty() ? scene.cloth.place : scene.cloth.file.string();
   auto mesh = cut::HybridMesh::build(to_triangle_mesh(*cloth));
-  if (!mesh) return explain(mesh.error(), *cloth, name);
-  cut::Material material = scene.material;
-  if (scene.mass) material.density = *scene.mass / area(*cloth);
-  auto simulation = cut::Simulation::build(*mesh, material);
-  if (!simulation) return Error{simulation.error().message};
+  if (!mesh && scene.cloth.file.empty())
+    return Error{fmt::format("{}: {}", scene.cloth.place, mesh.error().message)};
+  if (!mesh) return explain(mesh.error(), *cloth, (folder / scene.cloth.file).string());
+  const auto material = material_of(scene, *cloth);
+  if (!material) return material.error();
+  auto simulation = cut::Simulation::build(*mesh, *material);
+  if (!simulation) return Error{fmt::format("{}: {}", scene.material_place, simulation.error().message)};
   SceneRun run(scene, std::move(*cloth), std::move(*mesh), std::move(*simulation));
   if (const auto held = run.hold_anchors(); !held) return held.error();
   if (const auto loaded = run.load_cutters(folder); !loaded) return loaded.error();
@@ -145,7 +165,7 @@ Result<> SceneRun::cut_due(double from, double to) {
     const MovingBlade& blade = scene_.blades[i];
     if (!blade_moves_between(blade, from, to)) continue;
     const auto swept = scenes::swept(blade_at(blade, from), blade_at(blade, to));
-    const auto cut = cut_with(cutters_[scene_.cutters.size() + i], swept, fmt::format("blade {}", i));
+    const auto cut = cut_with(cutters_[scene_.cutters.size() + i], swept, blade.place);
     if (!cut) return cut;
   }
   return {};
@@ -166,11 +186,22 @@ Result<> SceneRun::advance() {
   const auto moving = Clock::now();
   const auto error = simulation_.step(mesh_, scene_.time_step, scene_.steps_per_frame);
   frame_.simulation_ms = milliseconds_since(moving);
+  if (error && error->kind == cut::Error::Kind::unstable) return failed(blow_up(error->element));
   if (error) return failed(error->message);
+  const cut::Energy energy = simulation_.energy(mesh_);
+  if (!std::isfinite(energy.total())) return failed("the energy is too large to be told");
   ++frame_.number;
   frame_.time = to;
-  frame_.energy = simulation_.energy(mesh_);
+  frame_.energy = energy;
   return {};
+}
+
+std::string SceneRun::blow_up(std::size_t node) const {
+  const double stable = simulation_.stable_time_step(scene_.surroundings.integrator);
+  const std::string where = fmt::format("the simulation blew up at node {}", node);
+  if (!(scene_.time_step > stable)) return where + ": the forces are too large";
+  return fmt::format("{}: the time step of {} s is more than the {:.3g} s up to which it is stable", where,
+                     scene_.time_step, stable);
 }
 
 void SceneRun::count() {

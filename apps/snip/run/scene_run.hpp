@@ -55,6 +55,7 @@ class SceneRun {
   Result<> hold_anchors();
   Result<> cut_with(cut::Cutter& cutter, const cut::TriangleMesh& mesh, const std::string& name);
   Result<> cut_due(double from, double to);
+  [[nodiscard]] std::string blow_up(std::size_t node) const;
   void count();
 
   Scene scene_;
