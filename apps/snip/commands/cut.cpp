@@ -13,6 +13,7 @@
 #include "cut/validate.hpp"
 #include "snip/clean.hpp"
 #include "snip/command_line.hpp"
+#include "snip/commands/checks.hpp"
 #include "snip/commands/commands.hpp"
 #include "snip/commands/outputs.hpp"
 #include "snip/commands/report.hpp"
@@ -125,18 +126,29 @@ Result<> run(const CutOptions& options) {
 void add_cut_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("cut", "Cut a surface mesh with a triangle mesh");
   auto options = std::make_shared<CutOptions>();
-  command->add_option("CLOTH", options->cloth, "Mesh to cut (.obj, .ply, .stl, .off)")->required();
-  command->add_option("CUTTER", options->cutter, "Mesh to cut it with (.obj, .ply, .stl, .off)")->required();
+  command->add_option("CLOTH", options->cloth, "Mesh to cut (.obj, .ply, .stl, .off)")
+      ->required()
+      ->check(a_name());
+  command->add_option("CUTTER", options->cutter, "Mesh to cut it with (.obj, .ply, .stl, .off)")
+      ->required()
+      ->check(a_name());
   command->add_option("-o,--output", options->out.mesh, "Where the pieces go (.obj, .ply, .stl, .off)")
-      ->required();
-  command->add_option("--merge-cut", options->merge.cut,
-                      "Merge the ends of a cut with nodes of the previous cut within this distance "
-                      "(default: 1/10 of the mean edge length)");
-  command->add_option("--merge-node", options->merge.node,
-                      "... with other nodes within this distance (default: 1/20)");
-  command->add_option("--merge-edge", options->merge.edge,
-                      "... with edges within this distance (default: 1/40)");
-  command->add_option("--stats", options->out.stats, "Write pieces, areas, counts and times as JSON");
+      ->required()
+      ->check(a_name());
+  command
+      ->add_option("--merge-cut", options->merge.cut,
+                   "Merge the ends of a cut with nodes of the previous cut within this distance "
+                   "(default: 1/10 of the mean edge length)")
+      ->check(positive_number());
+  command
+      ->add_option("--merge-node", options->merge.node,
+                   "... with other nodes within this distance (default: 1/20)")
+      ->check(positive_number());
+  command
+      ->add_option("--merge-edge", options->merge.edge, "... with edges within this distance (default: 1/40)")
+      ->check(positive_number());
+  command->add_option("--stats", options->out.stats, "Write pieces, areas, counts and times as JSON")
+      ->check(a_name());
   command->callback([options, &exit_code] {
     if (const Result<> result = run(*options); !result) {
       report_error(result.error());

@@ -6,6 +6,7 @@
 
 #include "snip/clean.hpp"
 #include "snip/command_line.hpp"
+#include "snip/commands/checks.hpp"
 #include "snip/commands/commands.hpp"
 #include "snip/commands/outputs.hpp"
 #include "snip/commands/report.hpp"
@@ -58,12 +59,16 @@ Result<> run(const WeldOptions& options) {
 void add_weld_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("weld", "Merge vertices that lie within a distance of each other");
   auto options = std::make_shared<WeldOptions>();
-  command->add_option("MESH", options->mesh, "Mesh to weld (.obj, .ply, .stl, .off)")->required();
+  command->add_option("MESH", options->mesh, "Mesh to weld (.obj, .ply, .stl, .off)")
+      ->required()
+      ->check(a_name());
   command->add_option("-d,--distance", options->distance, "Merge vertices no farther apart than this")
       ->required()
-      ->check(CLI::PositiveNumber);
-  command->add_option("-o,--output", options->out.mesh, "Mesh to write (.obj, .ply, .stl, .off)")->required();
-  command->add_option("--stats", options->out.stats, "Write what was done as JSON");
+      ->check(positive_number());
+  command->add_option("-o,--output", options->out.mesh, "Mesh to write (.obj, .ply, .stl, .off)")
+      ->required()
+      ->check(a_name());
+  command->add_option("--stats", options->out.stats, "Write what was done as JSON")->check(a_name());
   command->callback([options, &exit_code] {
     if (const Result<> result = run(*options); !result) {
       report_error(result.error());
