@@ -136,9 +136,7 @@ TEST_CASE("experiment 2: the E cuts two pieces out, and they fall") {
 }
 
 TEST_CASE("experiment 2 in paper mode: copied anchors hold the pieces up, and mass appears") {
-  Scene scene = experiment("e_shape");
-  scene.material.mode = cut::MaterialMode::paper;
-  SceneRun run = start(scene);
+  SceneRun run = start(experiment("e_shape_paper"));
   const double mass = run.simulation().total_mass();
   finish(run);
   REQUIRE(run.frame().pieces == 3);

@@ -354,7 +354,7 @@ TEST_CASE("the documentation lists every key that an error message can offer") {
 }
 
 TEST_CASE("the scenes of the repository can be read") {
-  for (const char* name : {"incremental", "e_shape", "moving_edge"}) {
+  for (const char* name : {"incremental", "e_shape", "e_shape_paper", "moving_edge"}) {
     const auto scene = snip::read_scene(std::string(SNIP_SOURCE_DIR) + "/examples/scenes/" + name + ".json");
     REQUIRE_MESSAGE(scene, scene.error().message);
     CHECK(scene->cloth.generated.triangles.size() == 12);

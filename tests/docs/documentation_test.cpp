@@ -1,34 +1,21 @@
 // What README.md and docs/ say and show is so: code, output, links, pictures and the names of rules.
-#include <doctest/doctest.h>
-#include <stdio.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <regex>
 #include <set>
-#include <sstream>
-#include <string>
 
+#include "docs/page_testing.hpp"
 #include "docs/svg.hpp"
 
 namespace fs = std::filesystem;
+using docs::output_of;
+using docs::root;
+using docs::text_of;
 
 namespace {
-
-const fs::path root = SNIP_SOURCE_DIR;
-
-std::string text_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  REQUIRE_MESSAGE(file, path.string());
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 /// The fenced block that follows the comment <!-- name --> in README.md.
 std::string block(const std::string& name) {
@@ -37,19 +24,6 @@ std::string block(const std::string& name) {
   REQUIRE_MESSAGE(comment != std::string::npos, name);
   const std::size_t begin = readme.find('\n', readme.find("```", comment)) + 1;
   return readme.substr(begin, readme.find("```", begin) - begin);
-}
-
-/// What a command prints, with the programs of this build on the path.
-std::string output_of(const std::string& command) {
-  const std::string programs = SNIP_PROGRAMS;
-  FILE* pipe = ::popen(("PATH=" + programs + ":$PATH; " + command + " 2>&1").c_str(), "r");
-  REQUIRE(pipe != nullptr);
-  std::string output;
-  std::array<char, 4096> buffer{};
-  for (std::size_t n = 0; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
-    output.append(buffer.data(), n);
-  CHECK_MESSAGE(::pclose(pipe) == 0, command);
-  return output;
 }
 
 std::vector<fs::path> pages() {
