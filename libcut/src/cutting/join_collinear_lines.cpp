@@ -32,6 +32,16 @@ bool close_to_chord(LatticePoint a, LatticePoint b, LatticePoint p) {
   return across * across <= 4 * squared && along > 0 && along < lattice::dot(ab, ab);
 }
 
+/// From the segment and not from its line: a chain that turns back along its chord is divided where it turns.
+double squared_distance(LatticePoint a, LatticePoint b, LatticePoint p) {
+  const lattice::Vector ab = b - a;
+  const std::int64_t along = lattice::dot(ab, p - a);
+  if (along <= 0) return static_cast<double>(lattice::dot(p - a, p - a));
+  if (along >= lattice::dot(ab, ab)) return static_cast<double>(lattice::dot(p - b, p - b));
+  const auto across = static_cast<double>(lattice::cross(ab, p - a));
+  return across * across / static_cast<double>(lattice::dot(ab, ab));
+}
+
 /// Keeps the points of chain[first..last] that the chain cannot do without, ends left out (Ramer, Douglas,
 /// Peucker). Chains whose furthest point is always near an end are divided in the middle from some depth on,
 /// so that neither the stack nor the time grow with the square of their length.
@@ -43,10 +53,9 @@ void keep_needed(const std::vector<LineEnd>& chain, std::size_t first, std::size
   for (std::size_t i = first + 1; i < last; ++i) {
     if (close_to_chord(chain[first].point, chain[last].point, chain[i].point)) continue;
     all_close = false;
-    const auto across =
-        static_cast<double>(lattice::orientation(chain[first].point, chain[last].point, chain[i].point));
-    if (across * across <= distance) continue;
-    distance = across * across;
+    const double off = squared_distance(chain[first].point, chain[last].point, chain[i].point);
+    if (off <= distance) continue;
+    distance = off;
     furthest = i;
   }
   if (all_close) return;
@@ -108,6 +117,12 @@ void join_collinear_lines(std::vector<CuttingLine>& lines) {
       if (following != number) ahead = 1 - side_at(following, end.point);
       line = following;
     }
+    // The same way round however the chain is divided.
+    const LatticePoint begin = chain.front().point;
+    const LatticePoint end = chain.back().point;
+    if (end < begin ||
+        (end == begin && lattice::orientation(begin, chain[1].point, chain[chain.size() - 2].point) < 0))
+      std::reverse(chain.begin(), chain.end());
     kept.clear();
     kept.push_back(chain.front());
     keep_needed(chain, 0, chain.size() - 1, 0, kept);
@@ -124,8 +139,10 @@ void join_collinear_lines(std::vector<CuttingLine>& lines) {
     else if (next[i][1] == number)
       walk(i, 0);
   }
-  for (Index i = 0; i < number; ++i)  // what is left are closed chains: nothing says where they begin
-    if (done[i] == 0) joined.push_back(lines[i]);
+  // What is left are closed chains. The first line of each begins at its smallest point, which is a corner of
+  // it however it is divided.
+  for (Index i = 0; i < number; ++i)
+    if (done[i] == 0) walk(i, 1);
   std::sort(joined.begin(), joined.end());
   joined.erase(std::unique(joined.begin(), joined.end()), joined.end());
   lines = std::move(joined);
