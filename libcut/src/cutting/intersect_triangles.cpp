@@ -54,29 +54,22 @@ bool one_sided(const std::array<double, 3>& h) {
 }
 
 std::int32_t to_lattice(double b) {
-  return static_cast<std::int32_t>(std::floor(std::clamp(b, 0.0, 1.0) * lattice_size + 0.5));
+  if (!(b > 0)) return 0;
+  return static_cast<std::int32_t>(std::floor(std::min(b, 1.0) * lattice_size + 0.5));
 }
 
-/// Barycentric coordinates of points of a triangle's plane.
+/// Barycentric coordinates of points of a triangle's plane. By areas: products of lengths cancel in a needle.
 struct PlaneCoordinates {
-  Vector3 origin, u, v;
-  double uu, uv, vv, determinant;
+  Vector3 origin, u, v, normal;
+  double area;
 
   explicit PlaneCoordinates(const std::array<Vector3, 3>& c)
-      : origin(c[0]),
-        u(c[1] - c[0]),
-        v(c[2] - c[0]),
-        uu(dot(u, u)),
-        uv(dot(u, v)),
-        vv(dot(v, v)),
-        determinant(uu * vv - uv * uv) {}
+      : origin(c[0]), u(c[1] - c[0]), v(c[2] - c[0]), normal(cross(u, v)), area(squared_length(normal)) {}
 
   [[nodiscard]] LatticePoint operator()(const Vector3& p) const {
     const Vector3 w = p - origin;
-    const double wu = dot(w, u);
-    const double wv = dot(w, v);
-    LatticePoint result{to_lattice((vv * wu - uv * wv) / determinant),
-                        to_lattice((uu * wv - uv * wu) / determinant)};
+    LatticePoint result{to_lattice(dot(cross(w, v), normal) / area),
+                        to_lattice(dot(cross(u, w), normal) / area)};
     result.y = std::min(result.y, lattice_size - result.x);
     return result;
   }

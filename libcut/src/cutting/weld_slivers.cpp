@@ -78,7 +78,7 @@ bool weld_smallest(const HybridMesh& mesh, TriangleWork& work, const DisjointPol
   }
   if (crumb == HybridMesh::none) return false;
   Index neighbour = HybridMesh::none;
-  double longest = 0;
+  double longest = -1;  // in a needle rounding may leave no length at all
   for (const auto& [pair, length] : shared)
     if (pair.first == crumb && length > longest) {
       longest = length;
