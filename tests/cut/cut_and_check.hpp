@@ -33,8 +33,12 @@ struct Session {
     cut::Buffers copy = mesh.buffers;
     auto result = cutter.cut(mesh, blade);
     REQUIRE(result.has_value());
+    const cut::Changes back = cut::inverse(*result, copy);
+    const cut::Buffers before = copy;
     cut::apply(*result, copy);
     REQUIRE(copy == mesh.buffers);
+    cut::apply(back, copy);
+    REQUIRE(copy == before);
     REQUIRE(violations(mesh) == "");
     return std::move(result).value();
   }

@@ -185,9 +185,13 @@ inline std::string run(const std::uint8_t* data, std::size_t size, unsigned most
     cut::Buffers copy = mesh.buffers;
     const auto result = knife.cut(mesh, cutter(bytes, input));
     if (!result) return "cut " + std::to_string(i) + ": " + result.error().message;
+    const cut::Changes back = cut::inverse(*result, copy);
+    const cut::Buffers before = copy;
     cut::apply(*result, copy);
     if (!(copy == mesh.buffers))
       return "cut " + std::to_string(i) + ": the change set does not give the new buffers";
+    cut::apply(back, copy);
+    if (!(copy == before)) return "cut " + std::to_string(i) + ": the inverse does not give the old buffers";
     for (const cut::Violation& v : cut::validate(mesh, 3))
       return "cut " + std::to_string(i) + ": " + v.rule + ": " + v.message;
   }

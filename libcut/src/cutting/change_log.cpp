@@ -22,6 +22,15 @@ void apply_to(std::vector<T>& array, const ArrayChanges<T>& changes) {
   for (const auto& entry : changes.entries) array[entry.index] = entry.value;
 }
 
+template <class T>
+ArrayChanges<T> inverse_of(const ArrayChanges<T>& changes, const std::vector<T>& before) {
+  ArrayChanges<T> back;
+  back.size_after = before.size();
+  for (const auto& entry : changes.entries)
+    if (entry.index < before.size()) back.entries.push_back({entry.index, before[entry.index]});
+  return back;
+}
+
 }  // namespace
 
 Changes publish(const HybridMesh& mesh, ChangeLog&& log) {
@@ -43,6 +52,19 @@ void apply(const Changes& changes, Buffers& buffers) {
   apply_to(buffers.springs, changes.springs);
   apply_to(buffers.render_vertices, changes.render_vertices);
   apply_to(buffers.render_triangles, changes.render_triangles);
+}
+
+Changes inverse(const Changes& changes, const Buffers& before) {
+  Changes back;
+  back.version_before = changes.version_after;
+  back.version_after = changes.version_before;
+  if (changes.empty()) return back;
+  back.nodes = inverse_of(changes.nodes, before.nodes);
+  back.triangles = inverse_of(changes.triangles, before.triangles);
+  back.springs = inverse_of(changes.springs, before.springs);
+  back.render_vertices = inverse_of(changes.render_vertices, before.render_vertices);
+  back.render_triangles = inverse_of(changes.render_triangles, before.render_triangles);
+  return back;
 }
 
 }  // namespace cut
