@@ -84,7 +84,7 @@ Pieces find_pieces(std::span<const Eigen::Vector3d> positions, std::span<const T
     }
     result.piece_of_triangle.push_back(piece);
     Piece& p = result.pieces[piece];
-    p.area += (positions[b] - positions[a]).cross(positions[c] - positions[a]).norm() / 2;
+    p.area += (positions[b] - positions[a]).cross(positions[c] - positions[a]).stableNorm() / 2;
     ++p.triangles;
     ++p.euler_characteristic;
   }

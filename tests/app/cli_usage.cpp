@@ -110,7 +110,7 @@ TEST_CASE("cli: validate says what a mesh consists of, or the first reason why i
   CHECK(good.err.empty());
   CHECK(good.out ==
         "sheet.obj: 16 vertices, 18 triangles, 1 piece\n"
-        "piece_0: area 9, 18 triangles, 1 boundary loops, Euler characteristic 1\n");
+        "piece_0: area 9, 18 triangles, 1 boundary loop, Euler characteristic 1\n");
 
   directory.write("book.obj",
                   "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nf 1 1 2\nf 1 2 3\nf 1 2 4\nf 1 2 5\n");

@@ -108,6 +108,15 @@ TEST_CASE("pieces: two triangles that share a vertex only are one piece with two
   CHECK(only_piece(mesh).euler_characteristic == 1);
 }
 
+TEST_CASE("pieces: areas of very small and very large triangles are exact to rounding") {
+  for (const double side : {1e-100, 1e-80, 1e40}) {
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {side, 0, 0}, {0, side, 0}};
+    mesh.triangles = {{0, 1, 2}};
+    CHECK(only_piece(mesh).area / (side * side / 2) == doctest::Approx(1).epsilon(1e-14));
+  }
+}
+
 TEST_CASE("pieces: three triangles at one edge, whatever their winding") {
   Mesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -1, 0}};

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "snip/clean.hpp"
 #include "snip/command_line.hpp"
@@ -18,23 +19,29 @@
 namespace snip {
 namespace {
 
+std::string counted(std::size_t count, std::string_view what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
 Result<> run(const std::string& path) {
   const Result<Mesh> mesh = read_clean_mesh(path);
   if (!mesh) return mesh.error();
   const auto hybrid = cut::HybridMesh::build(to_triangle_mesh(*mesh));
   if (!hybrid) return explain(hybrid.error(), *mesh, path);
   const Pieces pieces = find_pieces(mesh->positions, mesh->triangles);
-  print_out(fmt::format("{}: {} vertices, {} triangles, {} piece{}\n", path, mesh->positions.size(),
-                        mesh->triangles.size(), pieces.pieces.size(), pieces.pieces.size() == 1 ? "" : "s"));
+  print_out(fmt::format("{}: {} vertices, {}, {}\n", path, mesh->positions.size(),
+                        counted(mesh->triangles.size(), "triangle"), counted(pieces.pieces.size(), "piece")));
   for (std::size_t p = 0; p < pieces.pieces.size(); ++p) {
     const Piece& piece = pieces.pieces[p];
-    print_out(fmt::format("piece_{}: area {:.6g}, {} triangles, {} boundary loops, Euler characteristic {}\n",
-                          p, piece.area, piece.triangles, piece.boundary_loops, piece.euler_characteristic));
+    print_out(fmt::format("piece_{}: area {:.6g}, {}, {}, Euler characteristic {}\n", p, piece.area,
+                          counted(piece.triangles, "triangle"),
+                          counted(piece.boundary_loops, "boundary loop"), piece.euler_characteristic));
   }
   const std::vector<cut::Violation> violations = cut::validate(*hybrid);
   for (const cut::Violation& violation : violations)
     print_out(fmt::format("{}: {}\n", violation.rule, violation.message));
-  if (!violations.empty()) return Error{fmt::format("{}: {} violations found", path, violations.size())};
+  if (!violations.empty())
+    return Error{fmt::format("{}: {} found", path, counted(violations.size(), "violation"))};
   return {};
 }
 

@@ -51,7 +51,7 @@ double area(const Mesh& mesh) {
   double sum = 0;
   for (const auto& [a, b, c] : mesh.triangles) {
     const Eigen::Vector3d& p = mesh.positions[a];
-    sum += (mesh.positions[b] - p).cross(mesh.positions[c] - p).norm() / 2;
+    sum += (mesh.positions[b] - p).cross(mesh.positions[c] - p).stableNorm() / 2;
   }
   return sum;
 }
