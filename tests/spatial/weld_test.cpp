@@ -73,3 +73,19 @@ TEST_CASE("minus zero, zero and denormals are the same place") {
   CHECK(dictionary.insert_or_merge({-5e-324, 0.0, 0.0}, 2).cluster == first.cluster);
   CHECK(dictionary.size() == 1);
 }
+
+TEST_CASE("merge distances whose squares a float cannot hold") {
+  for (const float unit : {1e-30f, 1e30f}) {
+    spatial::PointClusterDictionary<float, 3, int> dictionary(unit);
+    std::vector<spatial::Point<float, 3>> centres;
+    for (int i = 0; i < 1000; ++i) {
+      const spatial::Point<float, 3> p{float(i % 9) * 0.4f * unit, float(i % 11) * 0.7f * unit,
+                                       float(i % 7) * 0.3f * unit};
+      bool near = false;
+      for (const auto& c : centres) near |= squared<float, 3>(p, c) <= double(unit) * double(unit);
+      CHECK(dictionary.insert_or_merge(p, i).inserted == !near);
+      if (!near) centres.push_back(p);
+    }
+    CHECK(centres.size() > 10);
+  }
+}

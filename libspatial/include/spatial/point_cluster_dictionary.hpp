@@ -3,8 +3,8 @@
 /// within that distance of each other, so that a cell of the grid holds few of them and every look-up takes
 /// constant time. In: points and values. Out: clusters.
 ///
-/// The paper nests one dictionary per axis; here one open-addressed table maps a cell to the first of its
-/// centres, which are chained.
+/// The paper nests one dictionary per axis; here one open-addressed table maps a cell to its centres, which
+/// lie side by side.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "box.hpp"
-#include "detail/cell_table.hpp"
+#include "detail/cell_grid.hpp"
 
 namespace spatial {
 
@@ -50,7 +50,14 @@ class PointClusterDictionary {
   explicit PointClusterDictionary(T merge_distance)
       : distance_(static_cast<double>(merge_distance)),
         squared_(distance_ * distance_),
-        cells_per_length_(0.5 / (distance_ * (1 + relative_slack))) {
+        cells_per_length_(reach / (distance_ * (1 + relative_slack))) {
+    // A sum of squares in T is off by a few of its last digits, and by less than the smallest normal number.
+    bound_ =
+        static_cast<T>(std::min(squared_ * (1 + 1e-5), static_cast<double>(std::numeric_limits<T>::max()))) +
+        std::numeric_limits<T>::min();
+    if (squared_ > 0.5 * static_cast<double>(std::numeric_limits<T>::max())) {
+      bound_ = std::numeric_limits<T>::infinity();
+    }
     usable_ = distance_ > 0 && squared_ >= std::numeric_limits<double>::min() &&
               squared_ <= std::numeric_limits<double>::max();
   }
@@ -75,10 +82,10 @@ class PointClusterDictionary {
     if (near.valid()) return {near, false};
     const auto id = static_cast<std::uint32_t>(clusters_.size());
     const auto centre = static_cast<std::uint32_t>(centres_.size());
-    table_.reserve_one();
-    centres_.push_back({point, id, none, none});
+    const auto place = grid_.prepare(key_of(point));
     clusters_.push_back({std::move(value), point, centre, true});
-    link(centre);
+    centres_.push_back({point, id, none});
+    grid_.add(place, point, centre);
     ++size_;
     return {{id}, true};
   }
@@ -91,15 +98,14 @@ class PointClusterDictionary {
   bool add_center(ClusterId cluster, const point_type& point) {
     if (!contains(cluster) || !accepts(point)) return false;
     bool taken = false;
-    visit_near(point,
-               [&](std::uint32_t centre, double) { taken |= centres_[centre].cluster != cluster.index; });
+    visit_near(point, [&](std::uint32_t centre, double) { taken |= cluster_of(centre) != cluster.index; });
     if (taken) return false;
-    table_.reserve_one();
+    const auto place = grid_.prepare(key_of(point));
     Cluster& owner = clusters_[cluster.index];
     const auto centre = static_cast<std::uint32_t>(centres_.size());
-    centres_.push_back({point, cluster.index, none, owner.last_centre});
+    centres_.push_back({point, cluster.index, owner.last_centre});
     owner.last_centre = centre;
-    link(centre);
+    grid_.add(place, point, centre);
     return true;
   }
 
@@ -107,8 +113,9 @@ class PointClusterDictionary {
   /// @return false if it is not there
   bool erase(ClusterId cluster) {
     if (!contains(cluster)) return false;
-    for (std::uint32_t c = clusters_[cluster.index].last_centre; c != none; c = centres_[c].sibling)
-      unlink(c);
+    for (std::uint32_t c = clusters_[cluster.index].last_centre; c != none; c = centres_[c].sibling) {
+      grid_.remove(key_of(centres_[c].point), c);
+    }
     clusters_[cluster.index].alive = false;
     --size_;
     return true;
@@ -130,7 +137,7 @@ class PointClusterDictionary {
   }
 
   void clear() {
-    table_.clear();
+    grid_.clear();
     clusters_.clear();
     centres_.clear();
     size_ = 0;
@@ -147,7 +154,7 @@ class PointClusterDictionary {
     std::uint32_t best_centre = none;
     visit_near(point, [&](std::uint32_t centre, double squared) {
       if (squared < best_squared || (squared == best_squared && centre < best_centre)) {
-        best = {centres_[centre].cluster};
+        best = {cluster_of(centre)};
         best_squared = squared;
         best_centre = centre;
       }
@@ -161,9 +168,9 @@ class PointClusterDictionary {
   void for_each_within(const point_type& point, Visitor&& visitor) const {
     visit_near(point, [&](std::uint32_t centre, double squared) {
       if constexpr (std::is_invocable_v<Visitor&, ClusterId>) {
-        visitor(ClusterId{centres_[centre].cluster});
+        visitor(ClusterId{cluster_of(centre)});
       } else {
-        visitor(ClusterId{centres_[centre].cluster}, squared);
+        visitor(ClusterId{cluster_of(centre)}, squared);
       }
     });
   }
@@ -211,10 +218,11 @@ class PointClusterDictionary {
  private:
   using Key = std::array<std::int32_t, D>;
   static constexpr std::uint32_t none = 0xffffffffu;
-  static constexpr double index_limit =
-      536870912.0;  // 2^29 cells of two merge distances; a neighbour's index fits too
-  // δf / δm. Rounding moves a cell coordinate by at most 2^-24 cells, far less than this; so two points
-  // within δm of each other are never half a cell apart.
+  // δm in cells. Wider cells mean fewer of them and more centres in each; these were the fastest.
+  static constexpr double reach = D <= 2 ? 1.0 / 6 : 1.0 / 4;
+  static constexpr double index_limit = 1073741824.0 * reach;  // 2^30 merge distances
+  // Rounding moves a cell coordinate by at most 2^-24 cells, far less than this; so two points within δm of
+  // each other are never `reach` apart.
   static constexpr double relative_slack = 1.0 / (1 << 20);
 
   struct Cluster {
@@ -226,14 +234,18 @@ class PointClusterDictionary {
   struct Centre {
     point_type point;
     std::uint32_t cluster;
-    std::uint32_t next;     // in the same cell
     std::uint32_t sibling;  // of the same cluster
   };
 
+  /// std::floor, without a call where the processor has no instruction for it. @pre |x| <= index_limit
+  static std::int32_t floor_of(double x) {
+    const auto whole = static_cast<std::int32_t>(x);
+    return whole - static_cast<std::int32_t>(x < whole);
+  }
   [[nodiscard]] Key key_of(const point_type& point) const {
     Key key{};
     for (std::size_t a = 0; a < D; ++a) {
-      key[a] = static_cast<std::int32_t>(std::floor(static_cast<double>(point[a]) * cells_per_length_));
+      key[a] = floor_of(static_cast<double>(point[a]) * cells_per_length_);
     }
     return key;
   }
@@ -246,16 +258,9 @@ class PointClusterDictionary {
     return sum;
   }
 
-  void link(std::uint32_t centre) {
-    std::uint32_t& first = table_.entry(key_of(centres_[centre].point));
-    centres_[centre].next = first;
-    first = centre;
-  }
-
-  void unlink(std::uint32_t centre) {
-    std::uint32_t* next = &table_.entry(key_of(centres_[centre].point));
-    while (*next != centre && *next != none) next = &centres_[*next].next;
-    if (*next == centre) *next = centres_[centre].next;
+  /// Until a cluster gets a further centre, both have the same number.
+  [[nodiscard]] std::uint32_t cluster_of(std::uint32_t centre) const {
+    return centres_.size() == clusters_.size() ? centre : centres_[centre].cluster;
   }
 
   template <class Visit>
@@ -266,33 +271,26 @@ class PointClusterDictionary {
     double gap[D];  // to the other cell on each axis, in cells
     for (std::size_t a = 0; a < D; ++a) {
       const double at = static_cast<double>(point[a]) * cells_per_length_;
-      const double index = std::floor(at);
-      const double fraction = at - index;
-      home[a] = static_cast<std::int32_t>(index);
-      other[a] = fraction < 0.5 ? home[a] - 1 : home[a] + 1;
-      gap[a] = fraction < 0.5 ? fraction : 1 - fraction;
+      home[a] = floor_of(at);
+      const double fraction = at - home[a];
+      const bool low = fraction < 0.5;
+      other[a] = low ? home[a] - 1 : home[a] + 1;
+      gap[a] = low ? fraction : 1 - fraction;
     }
-    Key key = home;
-    for (std::size_t cell = 0; cell < (std::size_t{1} << D); ++cell) {
-      double squared_gap = 0;
-      for (std::size_t a = 0; a < D; ++a) {
-        const bool beyond = ((cell >> a) & 1u) != 0;
-        key[a] = beyond ? other[a] : home[a];
-        squared_gap += beyond ? gap[a] * gap[a] : 0;
-      }
-      if (squared_gap > 0.25) continue;  // the whole cell is farther than half a cell, which is more than δm
-      for (std::uint32_t c = table_.find(key); c != none; c = centres_[c].next) {
-        const double squared = squared_distance(point, centres_[c].point);
-        if (squared <= squared_) visit(c, squared);
-      }
-    }
+    // A cell that is as far as `reach` is farther than δm.
+    grid_.visit_near(point, bound_, home, other, gap, reach * reach,
+                     [&](std::uint32_t centre, const point_type& at) {
+                       const double squared = squared_distance(point, at);
+                       if (squared <= squared_) visit(centre, squared);
+                     });
   }
 
   double distance_;
   double squared_;
   double cells_per_length_;
   bool usable_ = false;
-  detail::CellTable<D> table_;
+  T bound_;  // squared_ in T, not less
+  detail::CellGrid<T, D> grid_;
   std::vector<Cluster> clusters_;
   std::vector<Centre> centres_;
   std::size_t size_ = 0;

@@ -80,6 +80,12 @@ struct Pack<double> {
 #endif
 #endif
 
+inline void prefetch([[maybe_unused]] const void* address) {
+#ifdef __GNUC__
+  __builtin_prefetch(address);
+#endif
+}
+
 inline std::uint32_t first_bits(std::size_t count) {
   return count >= mask_bits ? 0xffffffffu : (1u << count) - 1u;
 }
@@ -167,6 +173,40 @@ std::uint32_t covered(const Rows<T, D>& rows, std::size_t count, const Point<T, 
     bool inside = true;
     for (std::size_t a = 0; a < D; ++a) inside &= rows.min(a, i) >= low[a] && rows.max(a, i) <= high[a];
     result |= static_cast<std::uint32_t>(inside) << i;
+  }
+  return result;
+}
+
+/// The points with a squared distance of at most `bound` from `point`; row r begins at rows + r * stride.
+/// @pre count <= mask_bits
+template <class T, std::size_t D>
+std::uint32_t in_reach(const T* rows, std::size_t stride, std::size_t count, const Point<T, D>& point,
+                       T bound) {
+  std::uint32_t result = 0;
+#ifdef SPATIAL_WIDE
+  if constexpr (Pack<T>::width != 0) {
+    using P = Pack<T>;
+    using V = typename P::V;
+    for (std::size_t i = 0; i < count; i += P::width) {
+      V sum{};
+      for (std::size_t a = 0; a < D; ++a) {
+        V x;
+        std::memcpy(&x, rows + a * stride + i, sizeof(V));
+        const V gap = x - point[a];
+        sum += gap * gap;
+      }
+      result |= P::bits(sum <= bound) << i;
+    }
+    return result & first_bits(count);
+  }
+#endif
+  for (std::size_t i = 0; i < count; ++i) {
+    T sum{};
+    for (std::size_t a = 0; a < D; ++a) {
+      const T gap = rows[a * stride + i] - point[a];
+      sum += gap * gap;
+    }
+    result |= static_cast<std::uint32_t>(sum <= bound) << i;
   }
   return result;
 }
