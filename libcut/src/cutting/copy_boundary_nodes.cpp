@@ -76,23 +76,41 @@ class VertexCopier {
                                      : mesh_.arrangements[index].polygons[a.polygon].corners[a.corner].vertex;
   }
 
-  /// New corners propose the vertex that was at their place before; who comes first gets it.
+  /// New corners propose the vertex that their fragment, or the one that it was cut off from, had at their
+  /// place before; who comes first gets it. Not that of another fragment: it may be elsewhere in space.
   void inherit_vertices(const TriangleWork& work) {
-    std::vector<std::pair<LatticePoint, RenderVertexId>> old;
+    struct OldCorner {
+      LatticePoint point;
+      TriangleId fragment;
+      RenderVertexId vertex;
+      auto operator<=>(const OldCorner&) const = default;
+    };
+    std::vector<OldCorner> old;
     for (const RenderPolygon& polygon : work.before.polygons)
       for (const PolygonCorner& c : polygon.corners) {
-        old.emplace_back(work.before.nodes[c.node].point, c.vertex);
+        old.push_back({work.before.nodes[c.node].point, polygon.triangle, c.vertex});
         released_.push_back(c.vertex);
       }
     sort_unique(old);
     Arrangement& now = mesh_.arrangements[mesh_.arrangement_of[work.ancestor.index()]];
-    for (RenderPolygon& polygon : now.polygons)
+    for (RenderPolygon& polygon : now.polygons) {
+      const TriangleId fragment = source_of(polygon.triangle);
       for (PolygonCorner& c : polygon.corners) {
         const LatticePoint p = now.nodes[c.node].point;
-        const auto found = std::lower_bound(
-            old.begin(), old.end(), p, [](const auto& entry, LatticePoint key) { return entry.first < key; });
-        c.vertex = found != old.end() && found->first == p ? found->second : RenderVertexId{};
+        const auto found =
+            std::lower_bound(old.begin(), old.end(), OldCorner{p, fragment, RenderVertexId{0}});
+        const bool is_old = found != old.end() && found->point == p && found->fragment == fragment;
+        c.vertex = is_old ? found->vertex : RenderVertexId{};
       }
+    }
+  }
+
+  /// The physics triangle that this one was cut off from by this cut, or itself.
+  [[nodiscard]] TriangleId source_of(TriangleId triangle) const {
+    const auto& copies = log_.triangle_copies;  // by increasing id, as they were made
+    const auto found = std::lower_bound(copies.begin(), copies.end(), triangle,
+                                        [](const TriangleCopy& c, TriangleId t) { return c.triangle < t; });
+    return found != copies.end() && found->triangle == triangle ? found->source : triangle;
   }
 
   /// Index, among the nodes of triangle a, of the boundary node at t of one of its edges.

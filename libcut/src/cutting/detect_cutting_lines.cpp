@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 #include "cutting/clip_to_polygon.hpp"
 #include "cutting/intersect_triangles.hpp"
@@ -11,14 +12,24 @@
 namespace cut {
 namespace {
 
-/// Index of a fragment among its ancestor's polygons.
-std::uint32_t polygon_of(const HybridMesh& mesh, TriangleId triangle) {
-  const Arrangement* arrangement = mesh.arrangement(mesh.buffers.triangles[triangle.index()].ancestor);
-  if (arrangement == nullptr) return 0;
-  std::uint32_t polygon = 0;
-  while (arrangement->polygons[polygon].triangle != triangle) ++polygon;
-  return polygon;
-}
+/// The polygons of one ancestor by their fragments.
+class PolygonsByFragment {
+ public:
+  void reset(const Arrangement* arrangement) {
+    sorted_.clear();
+    if (arrangement == nullptr) return;
+    for (std::uint32_t p = 0; p < arrangement->polygons.size(); ++p)
+      sorted_.emplace_back(arrangement->polygons[p].triangle, p);
+    std::sort(sorted_.begin(), sorted_.end());
+  }
+  [[nodiscard]] std::uint32_t of(TriangleId triangle) const {
+    if (sorted_.empty()) return 0;
+    return std::lower_bound(sorted_.begin(), sorted_.end(), std::pair(triangle, 0u))->second;
+  }
+
+ private:
+  std::vector<std::pair<TriangleId, std::uint32_t>> sorted_;
+};
 
 PhysicsFace physics_face(const HybridMesh& mesh, const PhysicsTriangle& triangle) {
   PhysicsFace face;
@@ -67,16 +78,18 @@ Detection detect_cutting_lines(const HybridMesh& mesh, const TriangleMesh& cutte
   Detection detection;
   std::vector<LatticePoint> points;
   std::vector<CuttingLine> lines;
+  PolygonsByFragment polygons;
   for (std::size_t i = 0; i < candidates.size();) {
     const AncestorId ancestor = mesh.buffers.triangles[candidates[i].triangle.index()].ancestor;
     const Arrangement* arrangement = mesh.arrangement(ancestor);
     lines.clear();
+    polygons.reset(arrangement);
     for (; i < candidates.size(); ++i) {
       const PhysicsTriangle& triangle = mesh.buffers.triangles[candidates[i].triangle.index()];
       if (triangle.ancestor != ancestor) break;
       intersect(physics_face(mesh, triangle), faces[candidates[i].cutter_triangle], slack, points);
       if (points.size() < 2) continue;
-      const std::uint32_t polygon = polygon_of(mesh, candidates[i].triangle);
+      const std::uint32_t polygon = polygons.of(candidates[i].triangle);
       for (std::size_t k = 0; k + 1 < points.size(); ++k)
         lines.push_back({polygon, {points[k]}, {points[k + 1]}});
     }

@@ -59,19 +59,22 @@ void update_vertex_nodes(HybridMesh& mesh, ChangeLog& log) {
     vertex.nodes = nodes;
     log.render_vertices.push_back(v.value);
   };
+  std::vector<AncestorId> cut_ancestors;
   for (const std::uint32_t index : log.triangles) {
-    const TriangleId triangle{index};
     const AncestorId ancestor = mesh.buffers.triangles[index].ancestor;
     if (!ancestor.valid()) continue;
-    const Arrangement* arrangement = mesh.arrangement(ancestor);
-    if (arrangement == nullptr) {
-      for (const RenderVertexId v : mesh.buffers.render_triangles[index].vertices) update(v, triangle);
-      continue;
-    }
-    for (const RenderPolygon& polygon : arrangement->polygons)
-      if (polygon.triangle == triangle)
-        for (const PolygonCorner& c : polygon.corners) update(c.vertex, triangle);
+    if (mesh.arrangement(ancestor) != nullptr)
+      cut_ancestors.push_back(ancestor);
+    else
+      for (const RenderVertexId v : mesh.buffers.render_triangles[index].vertices)
+        update(v, TriangleId{index});
   }
+  std::sort(cut_ancestors.begin(), cut_ancestors.end());
+  cut_ancestors.erase(std::unique(cut_ancestors.begin(), cut_ancestors.end()), cut_ancestors.end());
+  for (const AncestorId ancestor : cut_ancestors)
+    for (const RenderPolygon& polygon : mesh.arrangement(ancestor)->polygons)
+      if (std::binary_search(log.triangles.begin(), log.triangles.end(), polygon.triangle.value))
+        for (const PolygonCorner& c : polygon.corners) update(c.vertex, polygon.triangle);
 }
 
 }  // namespace cut

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "cutting/arrange_triangle.hpp"
@@ -50,44 +49,79 @@ std::vector<std::uint8_t> joined_to_neighbours(const HybridMesh& mesh, const Tri
   return joined;
 }
 
-/// Takes back the new edges that cut off the smallest crumb. @return false when there is none
-bool weld_smallest(const HybridMesh& mesh, TriangleWork& work, const DisjointPolygons& polygons,
-                   const CutContext& context) {
-  const Arrangement& arrangement = polygons.arrangement;
-  if (arrangement.polygons.size() <= work.before.polygons.size()) return false;
-  const auto joined = joined_to_neighbours(mesh, work, arrangement);
+/// Two polygons that were one before this cut, and the length of the new edges between them.
+struct Contact {
+  Index polygon;
+  Index neighbour;
+  double length;
+};
 
-  // Length of new edges between each polygon and each neighbour that was one with it before.
-  std::map<std::pair<Index, Index>, double> shared;
+/// From both sides, sorted by polygon.
+std::vector<Contact> contacts_of(const TriangleWork& work, const DisjointPolygons& polygons) {
+  const Arrangement& arrangement = polygons.arrangement;
+  std::vector<Contact> contacts;
   for (Index i = 0; i < arrangement.edges.size(); ++i) {
     const CutEdge& e = arrangement.edges[i];
     if (e.left == e.right || !work.graph.edges[polygons.graph_edge[i]].is_new ||
         polygons.parent[e.left] != polygons.parent[e.right])
       continue;
     const double length = work.metric.length(arrangement.nodes[e.from].point, arrangement.nodes[e.to].point);
-    shared[{e.left, e.right}] += length;
-    shared[{e.right, e.left}] += length;
+    contacts.push_back({e.left, e.right, length});
+    contacts.push_back({e.right, e.left, length});
   }
-  Index crumb = HybridMesh::none;
-  for (const auto& [pair, length] : shared) {
-    const Index p = pair.first;
-    if (joined[p] != 0 ||
-        (crumb != HybridMesh::none && polygons.doubled_area[p] >= polygons.doubled_area[crumb]))
-      continue;
-    if (width(work, polygons, p) < context.distances.node) crumb = p;
+  const auto pair_of = [](const Contact& c) { return std::pair(c.polygon, c.neighbour); };
+  std::stable_sort(contacts.begin(), contacts.end(),
+                   [&](const Contact& a, const Contact& b) { return pair_of(a) < pair_of(b); });
+  std::size_t last = 0;
+  for (std::size_t i = 1; i < contacts.size(); ++i) {
+    if (pair_of(contacts[i]) == pair_of(contacts[last]))
+      contacts[last].length += contacts[i].length;
+    else
+      contacts[++last] = contacts[i];
   }
-  if (crumb == HybridMesh::none) return false;
-  Index neighbour = HybridMesh::none;
-  double longest = -1;  // in a needle rounding may leave no length at all
-  for (const auto& [pair, length] : shared)
-    if (pair.first == crumb && length > longest) {
-      longest = length;
-      neighbour = pair.second;
+  if (!contacts.empty()) contacts.resize(last + 1);
+  return contacts;
+}
+
+/// Takes back the new edges that cut off crumbs, the smallest first. A crumb beside one that was welded, or
+/// that had to wait, waits for the next round, in which it may be none. @return false when there is none
+bool weld_crumbs(const HybridMesh& mesh, TriangleWork& work, const DisjointPolygons& polygons,
+                 const CutContext& context) {
+  const Arrangement& arrangement = polygons.arrangement;
+  if (arrangement.polygons.size() <= work.before.polygons.size()) return false;
+  const auto joined = joined_to_neighbours(mesh, work, arrangement);
+  const std::vector<Contact> contacts = contacts_of(work, polygons);
+  std::vector<Index> crumbs;  // each by its first contact
+  for (Index c = 0; c < contacts.size(); ++c) {
+    const Index p = contacts[c].polygon;
+    if ((c == 0 || contacts[c - 1].polygon != p) && joined[p] == 0 &&
+        width(work, polygons, p) < context.distances.node)
+      crumbs.push_back(c);
+  }
+  std::sort(crumbs.begin(), crumbs.end(), [&](Index a, Index b) {
+    return std::pair(polygons.doubled_area[contacts[a].polygon], a) <
+           std::pair(polygons.doubled_area[contacts[b].polygon], b);
+  });
+  constexpr Index nobody = HybridMesh::none;
+  std::vector<Index> welded_to(arrangement.polygons.size(), nobody);
+  std::vector<std::uint8_t> touched(arrangement.polygons.size(), 0);
+  for (const Index first : crumbs) {
+    const Index crumb = contacts[first].polygon;
+    Index longest = first;
+    bool waits = touched[crumb] != 0;
+    Index end = first;
+    for (; end < contacts.size() && contacts[end].polygon == crumb; ++end) {
+      waits = waits || touched[contacts[end].neighbour] != 0;
+      if (contacts[end].length > contacts[longest].length) longest = end;
     }
+    if (!waits) welded_to[crumb] = contacts[longest].neighbour;
+    touched[crumb] = 1;
+    for (Index c = first; c < end; ++c) touched[contacts[c].neighbour] = 1;
+  }
   std::vector<std::uint8_t> taken_back(work.graph.edges.size(), 0);
   for (Index i = 0; i < arrangement.edges.size(); ++i) {
     const CutEdge& e = arrangement.edges[i];
-    if (std::minmax(e.left, e.right) == std::minmax(crumb, neighbour) &&
+    if (e.left != e.right && (welded_to[e.left] == e.right || welded_to[e.right] == e.left) &&
         work.graph.edges[polygons.graph_edge[i]].is_new)
       taken_back[polygons.graph_edge[i]] = 1;
   }
@@ -95,7 +129,7 @@ bool weld_smallest(const HybridMesh& mesh, TriangleWork& work, const DisjointPol
   for (Index i = 0; i < taken_back.size(); ++i)
     if (taken_back[i] == 0) work.graph.edges[kept++] = work.graph.edges[i];
   work.graph.edges.resize(kept);
-  return true;
+  return !crumbs.empty();
 }
 
 }  // namespace
@@ -111,7 +145,7 @@ bool keeps_all_fragments(const TriangleWork& work, const DisjointPolygons& polyg
 DisjointPolygons weld_slivers(const HybridMesh& mesh, TriangleWork& work, const CutContext& context) {
   if (!work.graph.complete) return {};
   DisjointPolygons polygons = detect_disjoint_polygons(work);
-  while (weld_smallest(mesh, work, polygons, context)) {
+  while (weld_crumbs(mesh, work, polygons, context)) {
     work.changed = differs_from_before(work);
     polygons = detect_disjoint_polygons(work);
   }
