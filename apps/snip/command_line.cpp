@@ -40,7 +40,7 @@ int run(int argc, const char* const* argv) {
 }  // namespace
 
 int run_command_line(int argc, const char* const* argv) {
-  reserve_standard_streams();
+  prepare_standard_streams();
   int exit_code = exit_bad_input;
   try {
     exit_code = run(argc, argv);

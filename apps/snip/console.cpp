@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <system_error>
 
@@ -17,7 +18,8 @@ void print(std::string_view text, std::FILE* stream) {
 
 }  // namespace
 
-void reserve_standard_streams() {
+void prepare_standard_streams() {
+  (void)std::signal(SIGPIPE, SIG_IGN);
   // Opened the wrong way round, so that using the stream fails as it would if it were still closed. The
   // number is that of the stream, since it is the smallest one that is free.
   for (int stream = 0; stream < 3; ++stream)

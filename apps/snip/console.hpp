@@ -8,10 +8,10 @@
 
 namespace snip {
 
-/// Makes sure that the numbers of the standard streams are taken. Where one was closed by whoever started the
-/// program, the next file would get its number, and with it what is meant for the stream.
-/// Call this before any file is opened.
-void reserve_standard_streams();
+/// Makes sure that the numbers of the standard streams are taken: where one was closed by whoever started the
+/// program, the next file would get its number, and with it what is meant for the stream. A reader of a pipe
+/// that goes away is an error of writing from now on, and no signal. Call this before any file is opened.
+void prepare_standard_streams();
 
 /// Writes to stdout. A failure shows in `flush_stdout`.
 void print_out(std::string_view text);

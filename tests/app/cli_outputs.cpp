@@ -42,6 +42,18 @@ TEST_CASE("cli: stderr that cannot be written is no reason to stop") {
   }
 }
 
+TEST_CASE("cli: a run goes on when nobody listens any more") {
+  const Inputs inputs;
+  const std::string nobody = " | sh -c 'exec <&-; sleep 0.4'";
+  const std::string run = "(sleep 0.1; snip run scene.json -o out ";
+  CHECK(shell(inputs.directory, run + ">said; echo $? >code) 2>&1" + nobody) == 0);
+  CHECK(inputs.directory.read("code") == "0\n");
+  CHECK(shell(inputs.directory, run + "2>said; echo $? >code)" + nobody) == 0);
+  CHECK(inputs.directory.read("code") == "1\n");
+  CHECK(inputs.directory.read("said").ends_with("snip: error: stdout cannot be written: Broken pipe\n"));
+  CHECK(fs::is_regular_file(inputs.directory / "out/final.obj"));
+}
+
 TEST_CASE("cli: stdout that cannot be written is one line and exit code 1, unless nothing was said") {
   const Inputs inputs;
   for (const char* arguments :
