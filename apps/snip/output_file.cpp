@@ -64,7 +64,7 @@ Result<fs::path> output_target(const fs::path& path) {
   if (fs::is_directory(status)) return not_written(path, "it is a directory");
   const bool exists = fs::exists(status);
   if (exists && !fs::is_regular_file(status)) return not_written(path, "it is not a regular file");
-  const Result<fs::path> target = followed(path);
+  Result<fs::path> target = followed(path);
   if (!target) return target;
   if (!target->has_filename()) return not_written(path, "the name of a file is missing");
   if (exists && ::access(target->c_str(), W_OK) != 0) return not_written(path, errno);

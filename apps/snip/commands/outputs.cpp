@@ -6,7 +6,7 @@
 namespace snip {
 
 Result<MeshFormat> check(const OutputPaths& paths, std::initializer_list<std::filesystem::path> inputs) {
-  const Result<MeshFormat> format = format_of(paths.mesh);
+  Result<MeshFormat> format = format_of(paths.mesh);
   if (!format) return format;
   if (const auto target = output_target(paths.mesh); !target) return target.error();
   if (!paths.stats) return format;

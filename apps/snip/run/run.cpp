@@ -34,6 +34,13 @@ struct Totals {
   }
 };
 
+Result<OutputFile> begin_table(const std::filesystem::path& path) {
+  auto table = OutputFile::create(path);
+  if (!table) return table;
+  if (const auto written = table->write(frame_header()); !written) return written.error();
+  return table;
+}
+
 /// All frames. An error of the simulation is returned; the run then stands at the last good frame.
 Result<> all_frames(SceneRun& run, OutputFile* table, PictureFiles* pictures, Totals& totals) {
   const std::size_t count = run.scene().frames;
@@ -99,10 +106,9 @@ Result<> run_scene(const RunOptions& options) {
     if (const auto target = output_target(folder / scene->output.mesh); !target) return target.error();
   std::optional<OutputFile> table;
   if (scene->output.csv) {
-    auto created = OutputFile::create(folder / "frames.csv");
-    if (!created) return created.error();
-    table = std::move(*created);
-    if (const auto written = table->write(frame_header()); !written) return written;
+    auto begun = begin_table(folder / "frames.csv");
+    if (!begun) return begun.error();
+    table = std::move(*begun);
   }
   std::optional<PictureFiles> pictures;
   if (!options.no_images) {
@@ -112,7 +118,7 @@ Result<> run_scene(const RunOptions& options) {
   }
 
   Totals totals;
-  const Result<> ran = all_frames(*run, table ? &*table : nullptr, pictures ? &*pictures : nullptr, totals);
+  Result<> ran = all_frames(*run, table ? &*table : nullptr, pictures ? &*pictures : nullptr, totals);
   // What there is gets written, even if the run broke down.
   if (table)
     if (const auto published = table->publish(); !published) return published;
