@@ -245,6 +245,19 @@ TEST_CASE("meshes are found beside the scene") {
   CHECK(run.frame().pieces == 2);
 }
 
+TEST_CASE("the mesh at the end has the UV of the cloth, and no normals, which would be those of the start") {
+  const Folder folder;
+  (void)folder.write("cloth.obj",
+                     "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nvt 0.5 0\nvt 1 0\nvt 0 1\nf 1/1/1 2/2/1 3/3/1\n");
+  const fs::path scene = folder.write("s.json", R"({"cloth": {"file": "cloth.obj", "scale": 3,
+    "turn": {"axis": [1, 0, 0], "degrees": 90}}, "frames": 2})");
+  REQUIRE(snip::run_scene({scene, folder.path / "out", {}, true}));
+  const auto mesh = snip::read_mesh(folder.path / "out/final.obj");
+  REQUIRE(mesh);
+  CHECK(mesh->uvs == std::vector<Eigen::Vector2d>{{0.5, 0}, {1, 0}, {0, 1}});
+  CHECK(mesh->normals.empty());
+}
+
 TEST_CASE("a run writes what the scene asks for") {
   const Folder folder;
   const fs::path scene = folder.write("s.json", "{" + sheet + ", " + cut_across + R"(, "frames": 12,

@@ -23,13 +23,15 @@ double milliseconds_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-/// The mesh of a source, where the scene puts it.
+/// The mesh of a source, where the scene puts it. It will move, so normals would soon be wrong.
 Result<Mesh> load(const MeshSource& source, const std::filesystem::path& folder) {
   Mesh mesh;
   if (!source.file.empty()) {
     auto read = read_clean_mesh(folder / source.file);
     if (!read) return read.error();
     mesh = std::move(*read);
+    mesh.normals.clear();
+    mesh.normal_triangles.clear();
   } else {
     mesh.positions = source.generated.positions;
     mesh.triangles = source.generated.triangles;
@@ -43,7 +45,6 @@ Result<Mesh> load(const MeshSource& source, const std::filesystem::path& folder)
       return Error{fmt::format("{}: the mesh has a coordinate of {} or more where it is put", source.place,
                                cut::largest_coordinate)};
   }
-  for (Eigen::Vector3d& n : mesh.normals) n = source.placement.linear() * n;
   return mesh;
 }
 
