@@ -454,9 +454,9 @@ class BoundingBoxTernaryTree {
     };
     const size_type limit = detail::count_limit(predicate);
     if (limit < size()) {
-      for (const auto& each : detail::first_of(core_, metric, filter, limit)) {
-        if (!hand_over(core_.leaf(each.place.index()), each.position, Metric::distance(each.key))) break;
-      }
+      detail::visit_first(core_, metric, filter, limit, [&](const auto& each) {
+        return hand_over(core_.leaf(each.place.index()), each.position, Metric::distance(each.key));
+      });
     } else {
       detail::OrderedCursor<Core, Metric, Filter> cursor(core_, metric, filter, limit);
       while (cursor.next()) {

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -125,35 +126,38 @@ template <class S>
 class Smallest {
  public:
   Smallest(std::size_t limit, std::size_t available) : limit_(limit), sorted_(limit <= few) {
-    best_.reserve(sorted_ ? limit : std::min(2 * limit, available));
+    if (!sorted_) many_.reserve(std::min(2 * limit, available));
   }
-  /// What has a key of `worst()` or more is not needed any more.
+  /// True if something with this key is still needed. What is infinitely far is, while less than `limit` were
+  /// given.
+  [[nodiscard]] bool wants(S key) const { return full_ ? key < worst_ : key <= worst_; }
+  /// Nothing with a greater key is needed.
   [[nodiscard]] S worst() const { return worst_; }
-  /// False if less than `limit` were given so far, so that an infinite key counts too.
   [[nodiscard]] bool full() const { return full_; }
   void add(const Found<S>& item) {
     if (!sorted_) {
-      best_.push_back(item);
-      if (best_.size() >= 2 * limit_) thin();
+      many_.push_back(item);
+      if (many_.size() >= 2 * limit_) thin();
       return;
     }
-    if (best_.size() < limit_) {
-      best_.push_back(item);
-    } else {
-      best_.back() = item;
-    }
-    for (std::size_t i = best_.size() - 1; i > 0 && best_[i].key < best_[i - 1].key; --i) {
-      std::swap(best_[i], best_[i - 1]);
-    }
-    full_ = best_.size() == limit_;
-    if (full_) worst_ = best_.back().key;
+    std::size_t i = full_ ? count_ - 1 : count_++;
+    for (; i > 0 && item.key < few_[i - 1].key; --i) few_[i] = few_[i - 1];
+    few_[i] = item;
+    full_ = count_ == limit_;
+    if (full_) worst_ = few_[count_ - 1].key;
   }
-  std::vector<Found<S>> take() {
+  /// Calls `visit(item)` for each, nearest first, until it returns false.
+  template <class Visit>
+  void visit_in_order(Visit&& visit) {
     if (!sorted_) {
-      if (best_.size() > limit_) thin();
-      std::sort(best_.begin(), best_.end(), Nearer{});
+      sort_many();
+      if (many_.size() > limit_) many_.resize(limit_);
     }
-    return std::move(best_);
+    const Found<S>* items = sorted_ ? few_ : many_.data();
+    const std::size_t count = sorted_ ? count_ : many_.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!visit(items[i])) return;
+    }
   }
 
  private:
@@ -162,69 +166,100 @@ class Smallest {
     bool operator()(const Found<S>& a, const Found<S>& b) const { return a.key < b.key; }
   };
   void thin() {
-    const auto last = best_.begin() + static_cast<std::ptrdiff_t>(limit_ - 1);
-    std::nth_element(best_.begin(), last, best_.end(), Nearer{});
-    best_.resize(limit_);
-    worst_ = best_.back().key;
+    const auto last = many_.begin() + static_cast<std::ptrdiff_t>(limit_ - 1);
+    std::nth_element(many_.begin(), last, many_.end(), Nearer{});
+    many_.resize(limit_);
+    worst_ = many_.back().key;
     full_ = true;
+  }
+
+  // Squared distances are spread over their range, so that as many buckets as items nearly sort them.
+  void sort_many() {
+    S greatest = 0;
+    for (const Found<S>& item : many_) greatest = item.key > greatest ? item.key : greatest;
+    const std::size_t count = many_.size();
+    const S scale = static_cast<S>(count) / greatest;
+    if (!(scale > 0 && scale <= std::numeric_limits<S>::max())) {
+      std::sort(many_.begin(), many_.end(), Nearer{});
+      return;
+    }
+    const auto bucket_of = [&](S key) {
+      const auto bucket = static_cast<std::size_t>(key * scale);
+      return bucket < count ? bucket : count - 1;
+    };
+    std::vector<std::uint32_t> ends(count + 1, 0);  // first: where each bucket begins, then where it ends
+    for (const Found<S>& item : many_) ++ends[bucket_of(item.key) + 1];
+    for (std::size_t b = 1; b <= count; ++b) ends[b] += ends[b - 1];
+    std::vector<Found<S>> sorted(count);
+    for (const Found<S>& item : many_) sorted[ends[bucket_of(item.key)]++] = item;
+    std::uint32_t begin = 0;
+    for (std::size_t b = 0; b < count; begin = ends[b++]) {
+      if (ends[b] - begin > 1) {
+        std::sort(sorted.begin() + begin, sorted.begin() + ends[b], Nearer{});
+      }
+    }
+    many_.swap(sorted);
   }
 
   std::size_t limit_;
   bool sorted_;
   bool full_ = false;
   S worst_ = std::numeric_limits<S>::infinity();
-  std::vector<Found<S>> best_;
+  std::size_t count_ = 0;
+  Found<S> few_[few];
+  std::vector<Found<S>> many_;
 };
 
-/// The `limit` elements with the smallest keys, in order. Walks depth first, nearest child first, and prunes
-/// with the worst of the best so far: unlike best first, it keeps few elements.
-template <class Core, class Metric, class Filter>
-std::vector<Found<typename Metric::S>> first_of(const Core& core, const Metric& metric, const Filter& filter,
-                                                std::size_t limit) {
+/// Calls `visit(item)` for the `limit` elements with the smallest keys, in order, until it returns false.
+/// Walks depth first, nearest child first, and prunes with the worst of the best so far: unlike best first,
+/// it keeps few elements.
+template <class Core, class Metric, class Filter, class Visit>
+void visit_first(const Core& core, const Metric& metric, const Filter& filter, std::size_t limit,
+                 Visit&& visit) {
   using S = typename Metric::S;
+  constexpr bool all_pass = std::is_same_v<Filter, Everything<typename Core::Scalar, Core::dimension>>;
+  if (core.root().empty() || limit == 0 || !filter.may(core.root_box())) return;
   Smallest<S> best(limit, core.size());
-  if (core.root().empty() || limit == 0 || !filter.may(core.root_box())) return {};
-  struct Item {
+  struct Part {
     S key;
     ChildRef place;
   };
-  SmallStack<Item, stack_inline> stack;
-  stack.push({S{0}, core.root()});
+  SmallStack<Part, stack_inline> waiting;
+  waiting.push({S{0}, core.root()});
   S keys[keys_room];
-  while (!stack.empty()) {
-    const Item top = stack.pop();
-    if (best.full() && !(top.key < best.worst())) continue;
-    if (top.place.is_leaf()) {
-      const auto& leaf = core.leaf(top.place.index());
-      for (std::uint32_t begin = 0; begin < leaf.count; begin += mask_bits) {
-        const std::uint32_t count = leaf.count - begin < mask_bits ? leaf.count - begin : mask_bits;
-        if (best.full() && !(top.key < best.worst()))
-          break;  // nothing here can be nearer than the leaf itself
-        metric.keys(rows_of<Core>(leaf).from(begin), count, keys);
-        std::uint32_t near = below(keys, count, best.worst(), !best.full());
-        for (; near != 0; near &= near - 1) {
-          const auto i = static_cast<std::uint32_t>(std::countr_zero(near));
-          const std::uint32_t at = begin + i;
-          if (best.full() && !(keys[i] < best.worst())) continue;
-          if (!filter.test(leaf.box(at), unwrap(leaf.values()[at]))) continue;
-          best.add({keys[i], top.place, at});
-        }
+  while (!waiting.empty()) {
+    const Part here = waiting.pop();
+    if (!best.wants(here.key)) continue;
+    if (!here.place.is_leaf()) {
+      const auto& node = core.node(here.place.index());
+      metric.keys(rows_of<Core>(node), 3, keys);
+      // Farthest first onto the stack. The centric child goes where its key says.
+      std::uint32_t order[3] = {0, 1, 2};
+      if (keys[order[0]] < keys[order[1]]) std::swap(order[0], order[1]);
+      if (keys[order[1]] < keys[order[2]]) std::swap(order[1], order[2]);
+      if (keys[order[0]] < keys[order[1]]) std::swap(order[0], order[1]);
+      for (const std::uint32_t s : order) {
+        if (node.child[s].empty() || !best.wants(keys[s])) continue;
+        if (!all_pass && !filter.may(node.child_box(s))) continue;
+        waiting.push({keys[s], node.child[s]});
       }
       continue;
     }
-    const auto& node = core.node(top.place.index());
-    metric.keys(rows_of<Core>(node), 3, keys);
-    // Farthest first onto the stack. The centric child goes where its key says.
-    std::uint32_t order[3] = {0, 1, 2};
-    if (keys[order[0]] < keys[order[1]]) std::swap(order[0], order[1]);
-    if (keys[order[1]] < keys[order[2]]) std::swap(order[1], order[2]);
-    if (keys[order[0]] < keys[order[1]]) std::swap(order[0], order[1]);
-    for (const std::uint32_t s : order) {
-      if (node.child[s].empty() || !(keys[s] <= best.worst()) || !filter.may(node.child_box(s))) continue;
-      stack.push({keys[s], node.child[s]});
+    const auto& leaf = core.leaf(here.place.index());
+    for (std::uint32_t begin = 0; begin < leaf.count && best.wants(here.key); begin += mask_bits) {
+      const std::uint32_t count = leaf.count - begin < mask_bits ? leaf.count - begin : mask_bits;
+      metric.keys(rows_of<Core>(leaf).from(begin), count, keys);
+      std::uint32_t near = below(keys, count, best.worst(), !best.full());
+      for (; near != 0; near &= near - 1) {
+        const auto i = static_cast<std::uint32_t>(std::countr_zero(near));
+        const std::uint32_t at = begin + i;
+        if (!best.wants(keys[i])) continue;
+        if (!all_pass && !filter.test(leaf.box(at), unwrap(leaf.values()[at]))) continue;
+        best.add({keys[i], here.place, at});
+      }
     }
   }
-  return best.take();
+  best.visit_in_order(visit);
 }
 
 }  // namespace spatial::detail

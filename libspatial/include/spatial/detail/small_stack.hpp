@@ -18,10 +18,12 @@ class SmallStack {
     }
   }
   T pop() {
-    if (more_.empty()) return items_[--size_];
-    T item = more_.back();
-    more_.pop_back();
-    return item;
+    if (size_ == Inline && !more_.empty()) {
+      T item = more_.back();
+      more_.pop_back();
+      return item;
+    }
+    return items_[--size_];
   }
   [[nodiscard]] bool empty() const { return size_ == 0; }
 
