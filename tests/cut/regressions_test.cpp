@@ -1,6 +1,7 @@
 // One scene for each fault that was found and put right.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -200,4 +201,34 @@ TEST_CASE("a thousand random cuts within one triangle, at once and once more acr
   CHECK(pieces(mesh).list.size() > 1000);
   REQUIRE(cutter.cut(mesh, scenes::ribbon({{-1, 0.31, 0}, {2, 0.37, 0}}, {0, 0, 2})).has_value());
   CHECK(validate(mesh).empty());
+}
+
+TEST_CASE("small triangles in a coarse mesh are cut where the cutter meets them") {
+  // The merge distances are a part of the mean edge: 1 mm squares beside one triangle of 1 km merged with all
+  // that was cut in them, into 9 pieces.
+  const TriangleMesh fine = scenes::grid(10, 10, 1e-3);
+  const TriangleMesh coarse{{{0, 0, 5}, {1000, 0, 5}, {0, 1000, 5}}, {{0, 1, 2}}};
+  const TriangleMesh blade = scenes::plane({0.0031, 0.0041, 0}, {2000, 300, 0}, {0, 0, 100});
+  const auto areas = [&](const TriangleMesh& cloth, const MergeDistances* distances) {
+    HybridMesh mesh = *HybridMesh::build(cloth);
+    Cutter cutter(distances != nullptr ? *distances : default_merge_distances(mesh));
+    REQUIRE(cutter.cut(mesh, blade).has_value());
+    CHECK(validate(mesh).empty());
+    std::vector<double> result;
+    for (const Piece& piece : pieces(mesh).list) result.push_back(piece.rest_area);
+    std::sort(result.begin(), result.end());
+    return result;
+  };
+  const std::vector<double> alone = areas(fine, nullptr);
+  REQUIRE(alone.size() == 2);
+  // The line y = 0.0041 + 0.15 (x - 0.0031) through the square of 10 mm.
+  CHECK(alone[0] == doctest::Approx(0.01 * (0.0041 + 0.15 * (0.005 - 0.0031))).epsilon(0.02));
+  const std::vector<double> both = areas(scenes::joined({fine, coarse}), nullptr);
+  REQUIRE(both.size() == 4);
+  CHECK(both[0] == doctest::Approx(alone[0]).epsilon(0.05));
+  CHECK(both[1] == doctest::Approx(alone[1]).epsilon(0.05));
+  const MergeDistances large{1.4e-3, 1.4e-3, 1.4e-3};  // an edge
+  const std::vector<double> merged = areas(fine, &large);
+  REQUIRE(merged.size() == 2);
+  CHECK(merged[0] == doctest::Approx(alone[0]).epsilon(0.1));
 }

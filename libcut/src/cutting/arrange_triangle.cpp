@@ -110,7 +110,7 @@ void arrange_triangle(TriangleWork& work, const std::array<std::vector<LatticePo
                       const CutContext& context) {
   const std::vector<LatticePoint> new_boundary_points = lay_out(work, boundary);
   if (!work.lines.empty()) {
-    merge_on_cut_edges(work, context);
+    merge_on_cut_edges(work);
     merge_free_endpoints(work, new_boundary_points, context);
     std::sort(work.lines.begin(), work.lines.end(), [](const CuttingLine& l, const CuttingLine& r) {
       return std::tie(l.polygon, l.a.point, l.b.point) < std::tie(r.polygon, r.a.point, r.b.point);
@@ -130,7 +130,7 @@ void arrange_triangle(TriangleWork& work, const std::array<std::vector<LatticePo
     const PolygonNodes nodes = polygon_nodes(work, segments);
     std::vector<GraphEdge> new_edges;
     for (const auto& [a, b, polygon] : segments) {
-      const std::vector<Index> chain = merge_existing_nodes(work, nodes, polygon, a, b, context);
+      const std::vector<Index> chain = merge_existing_nodes(work, nodes, polygon, a, b);
       for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
         const LatticePoint p = work.graph.points[chain[i]];
         const LatticePoint q = work.graph.points[chain[i + 1]];
@@ -146,7 +146,7 @@ void arrange_triangle(TriangleWork& work, const std::array<std::vector<LatticePo
     cut_along_segments(work);
     for (const GraphEdge& e : work.graph.edges)  // crossings are part of the cut, too
       if (e.is_new) work.stamps[e.from] = work.stamps[e.to] = context.this_cut;
-    merge_adjacent_edges(work, context);
+    merge_adjacent_edges(work);
   }
   work.changed = differs_from_before(work);
 }

@@ -138,8 +138,8 @@ Result<Changes> Cutter::cut(HybridMesh& mesh, const TriangleMesh& cutter) {
 
   const CutContext context{memory_->distances, memory_->centres, mesh.cut_count + 1, memory_->previous_cut};
   const double slack = contact_slack(context.distances, cutter);
-  auto [works, lines] =
-      detect_cutting_lines(mesh, cutter, memory_->broad_phase.candidates(mesh, cutter, slack), slack);
+  auto [works, lines] = detect_cutting_lines(
+      mesh, cutter, memory_->broad_phase.candidates(mesh, cutter, slack), slack, context.distances);
   watch.lap(timings.detect);
 
   Changes nothing;
@@ -167,11 +167,11 @@ Result<Changes> Cutter::cut(HybridMesh& mesh, const TriangleMesh& cutter) {
     for (std::size_t i = 0; i < 3; ++i) boundary[i] = boundary_points(mesh, work.ancestor, i);
     arrange_triangle(work, boundary, context);
     // A work whose only change is a cut along one of its sides needs its polygons, too.
-    polygons.push_back(weld_slivers(mesh, work, context));
+    polygons.push_back(weld_slivers(mesh, work));
     if (!keeps_all_fragments(work, polygons.back())) {
       work.lines.clear();
       arrange_triangle(work, boundary, context);
-      polygons.back() = weld_slivers(mesh, work, context);
+      polygons.back() = weld_slivers(mesh, work);
     }
     remember_centres(work, polygons.back().arrangement, next_centres);
   }

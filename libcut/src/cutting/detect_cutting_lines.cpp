@@ -53,7 +53,8 @@ double contact_slack(const MergeDistances& distances, const TriangleMesh& cutter
 double farthest_corner(const MergeDistances& distances) { return distances.edge * 0x1p-6 / 0x1p-46; }
 
 Detection detect_cutting_lines(const HybridMesh& mesh, const TriangleMesh& cutter,
-                               std::vector<CandidatePair> candidates, double slack) {
+                               std::vector<CandidatePair> candidates, double slack,
+                               const MergeDistances& distances) {
   std::vector<CutterFace> faces(cutter.triangles.size());
   std::vector<std::uint8_t> has_area(cutter.triangles.size());
   for (std::size_t i = 0; i < faces.size(); ++i) {
@@ -96,7 +97,7 @@ Detection detect_cutting_lines(const HybridMesh& mesh, const TriangleMesh& cutte
     if (lines.empty()) continue;
     join_collinear_lines(lines);
     for (const CuttingLine& l : lines) detection.lines.push_back({ancestor, l.a.point, l.b.point});
-    TriangleWork work{ancestor, rest_metric(mesh.ancestors, ancestor), working_arrangement(mesh, ancestor)};
+    TriangleWork work = make_work(mesh, ancestor, distances);
     if (arrangement != nullptr && arrangement->polygons.size() > 1) {
       for (const CuttingLine& l : lines)
         clip_to_polygon(work.before, l.polygon, l.a.point, l.b.point, work.lines);

@@ -42,6 +42,7 @@ struct Detection {
 
 /// The result does not depend on the order of `candidates`. O(candidates · log).
 Detection detect_cutting_lines(const HybridMesh& mesh, const TriangleMesh& cutter,
-                               std::vector<CandidatePair> candidates, double slack);
+                               std::vector<CandidatePair> candidates, double slack,
+                               const MergeDistances& distances);
 
 }  // namespace cut

@@ -15,7 +15,7 @@ using Index = std::uint32_t;
 
 class Merger {
  public:
-  Merger(TriangleWork& work, const CutContext& context) : work_(work), context_(context) {}
+  explicit Merger(TriangleWork& work) : work_(work) {}
 
   void run() {
     std::vector<std::vector<Index>> edges_at(work_.graph.points.size());
@@ -66,8 +66,8 @@ class Merger {
     if (common_side(a, b) < 3) return false;
     const auto d = work_.metric.distance_to_segment(p, a, b);
     const double deviation = std::sqrt(d.squared) + std::max(first.deviation, second.deviation);
-    if (deviation > context_.distances.edge || d.parameter <= 0 || d.parameter >= 1) return false;
-    const double reach = context_.distances.edge * context_.distances.edge;
+    if (deviation > work_.distances.edge || d.parameter <= 0 || d.parameter >= 1) return false;
+    const double reach = work_.distances.edge * work_.distances.edge;
     for (Index other = 0; other < work_.graph.points.size(); ++other) {
       if (other == n || other == first.from || other == second.to) continue;
       const auto gap = work_.metric.distance_to_segment(work_.graph.points[other], a, b);
@@ -88,11 +88,10 @@ class Merger {
   }
 
   TriangleWork& work_;
-  const CutContext& context_;
 };
 
 }  // namespace
 
-void merge_adjacent_edges(TriangleWork& work, const CutContext& context) { Merger(work, context).run(); }
+void merge_adjacent_edges(TriangleWork& work) { Merger(work).run(); }
 
 }  // namespace cut

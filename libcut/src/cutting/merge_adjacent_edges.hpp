@@ -9,6 +9,6 @@ namespace cut {
 /// within δe of the line that replaces these, alone. An edge remembers how far dropped nodes may lie off it
 /// (CutEdge::deviation), and never drops a node that would bring this beyond δe: dropping again in each frame
 /// does not let a cut drift.
-void merge_adjacent_edges(TriangleWork& work, const CutContext& context);
+void merge_adjacent_edges(TriangleWork& work);
 
 }  // namespace cut

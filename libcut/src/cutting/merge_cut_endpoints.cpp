@@ -71,7 +71,7 @@ class EndpointMerger {
 
   [[nodiscard]] LatticePoint point(std::uint32_t node) const { return work_.before.nodes[node].point; }
   [[nodiscard]] double reach(std::uint32_t node) const {
-    return context_.recent(work_.before.nodes[node].stamp) ? context_.distances.cut : context_.distances.node;
+    return context_.recent(work_.before.nodes[node].stamp) ? work_.distances.cut : work_.distances.node;
   }
 
   /// The nearest node, or place where a cut has begun, of the previous cut within δc; else the nearest node
@@ -93,20 +93,20 @@ class EndpointMerger {
     for (const std::uint32_t n : nodes_.of(polygon))
       consider(at_node(n), point(n), context_.recent(work_.before.nodes[n].stamp), reach(n));
     for (const ClusterCentres::Begun& b : context_.centres.begun_in(work_.ancestor))
-      consider({b.point, LineEnd::On::nothing, 0}, b.point, true, context_.distances.cut);
+      consider({b.point, LineEnd::On::nothing, 0}, b.point, true, work_.distances.cut);
     const auto& centres = context_.centres.inside;
     for (auto c =
              std::lower_bound(centres.begin(), centres.end(), ClusterCentres::Inside{work_.ancestor, {}, {}},
                               [](const auto& l, const auto& r) { return l.ancestor < r.ancestor; });
          c != centres.end() && c->ancestor == work_.ancestor; ++c)
       for (const std::uint32_t n : nodes_.of(polygon))
-        if (point(n) == c->node) consider(at_node(n), c->detected, true, context_.same_place());
+        if (point(n) == c->node) consider(at_node(n), c->detected, true, same_place(work_.distances));
     return best;
   }
 
   void merge_to_edge(LineEnd& end, std::uint32_t polygon) const {
     const LatticePoint p = end.point;
-    double best = context_.distances.edge * context_.distances.edge;
+    double best = work_.distances.edge * work_.distances.edge;
     for (std::size_t i = 0; i < 3; ++i)
       for (std::uint32_t k = 0; k < work_.before.section_polygons[i].size(); ++k) {
         if (work_.before.section_polygons[i][k] != polygon) continue;
@@ -184,7 +184,7 @@ void merge_free_endpoints(TriangleWork& work, const std::vector<LatticePoint>& b
   };
   for (std::size_t i = 0; i < open.size();) {
     const std::uint32_t polygon = open[i].first;
-    Clusters clusters(context.distances.node);
+    Clusters clusters(work.distances.node);
     for (const LatticePoint p : boundary_points) clusters.insert_or_merge(flat(p), p);
     for (const CuttingLine& line : work.lines)
       for (const LineEnd& end : {line.a, line.b})

@@ -53,9 +53,8 @@ struct Chain {
 }  // namespace
 
 std::vector<std::uint32_t> merge_existing_nodes(const TriangleWork& work, const PolygonNodes& nodes,
-                                                std::uint32_t polygon, std::uint32_t a, std::uint32_t b,
-                                                const CutContext& context) {
-  Chain chain{work,  nodes.of(polygon), work.graph.points[a], work.graph.points[b], context.distances.edge,
+                                                std::uint32_t polygon, std::uint32_t a, std::uint32_t b) {
+  Chain chain{work,  nodes.of(polygon), work.graph.points[a], work.graph.points[b], work.distances.edge,
               {a, b}};
   chain.refine(0);
   return std::move(chain.nodes);

@@ -15,7 +15,6 @@ namespace cut {
 /// line (without such a cap a line that crosses an old cut with close nodes would climb along it), and within
 /// its polygon. O(chain · nodes).
 std::vector<std::uint32_t> merge_existing_nodes(const TriangleWork& work, const PolygonNodes& nodes,
-                                                std::uint32_t polygon, std::uint32_t a, std::uint32_t b,
-                                                const CutContext& context);
+                                                std::uint32_t polygon, std::uint32_t a, std::uint32_t b);
 
 }  // namespace cut

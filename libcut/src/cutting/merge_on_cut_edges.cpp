@@ -24,13 +24,11 @@ struct CutPoint {
 
 /// The new nodes of one edge, in its direction: for each group within δn the point nearest to the group's
 /// middle.
-std::vector<LatticePoint> group(const CutPoint* begin, const CutPoint* end, const TriangleWork& work,
-                                const CutContext& context) {
+std::vector<LatticePoint> group(const CutPoint* begin, const CutPoint* end, const TriangleWork& work) {
   std::vector<LatticePoint> centres;
   for (const CutPoint* p = begin; p != end;) {
     const CutPoint* last = p;
-    while (last + 1 != end && work.metric.length(p->point, (last + 1)->point) <= context.distances.node)
-      ++last;
+    while (last + 1 != end && work.metric.length(p->point, (last + 1)->point) <= work.distances.node) ++last;
     const std::int64_t middle = p->along + (last->along - p->along) / 2;
     const auto off = [&](const CutPoint& c) {
       return c.along < middle ? middle - c.along : c.along - middle;
@@ -45,7 +43,7 @@ std::vector<LatticePoint> group(const CutPoint* begin, const CutPoint* end, cons
 
 }  // namespace
 
-void merge_on_cut_edges(TriangleWork& work, const CutContext& context) {
+void merge_on_cut_edges(TriangleWork& work) {
   std::vector<CutPoint> points;
   for (const CuttingLine& line : work.lines)
     for (const LineEnd& end : {line.a, line.b}) {
@@ -62,7 +60,7 @@ void merge_on_cut_edges(TriangleWork& work, const CutContext& context) {
   for (std::size_t i = 0; i < points.size();) {
     std::size_t end = i;
     while (end < points.size() && points[end].edge == points[i].edge) ++end;
-    divided.emplace_back(points[i].edge, group(points.data() + i, points.data() + end, work, context));
+    divided.emplace_back(points[i].edge, group(points.data() + i, points.data() + end, work));
     i = end;
   }
   for (CuttingLine& line : work.lines)

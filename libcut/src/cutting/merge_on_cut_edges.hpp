@@ -11,6 +11,6 @@ namespace cut {
 /// An edge is led through all its new nodes at once: dividing it at one after the other would move it off the
 /// others by rounding.
 /// @pre edge i of the graph is edge i of `before`
-void merge_on_cut_edges(TriangleWork& work, const CutContext& context);
+void merge_on_cut_edges(TriangleWork& work);
 
 }  // namespace cut

@@ -29,12 +29,13 @@ struct Target {
   double reach;
 };
 
-std::vector<Target> targets_of(const HybridMesh& mesh, AncestorEdgeId edge, const CutContext& context) {
+std::vector<Target> targets_of(const HybridMesh& mesh, AncestorEdgeId edge, const MergeDistances& distances,
+                               const CutContext& context) {
   const auto& ends = mesh.ancestors.edges[edge.index()].nodes;
   std::vector<Target> targets;
   const auto add_node = [&](std::int32_t t, std::uint32_t stamp) {
     const bool recent = context.recent(stamp);
-    targets.push_back({t, recent, t, recent ? context.distances.cut : context.distances.node});
+    targets.push_back({t, recent, t, recent ? distances.cut : distances.node});
   };
   add_node(0, mesh.node_stamps[ends[0].index()]);
   add_node(lattice_size, mesh.node_stamps[ends[1].index()]);
@@ -43,7 +44,7 @@ std::vector<Target> targets_of(const HybridMesh& mesh, AncestorEdgeId edge, cons
   const auto& centres = context.centres.on_edges;
   for (auto c = std::lower_bound(centres.begin(), centres.end(), ClusterCentres::OnEdge{edge, 0, 0});
        c != centres.end() && c->edge == edge; ++c)
-    targets.push_back({c->detected, true, c->node, context.same_place()});
+    targets.push_back({c->detected, true, c->node, same_place(distances)});
   return targets;
 }
 
@@ -69,14 +70,14 @@ bool merge_to_node(EdgePoint& point, const std::vector<Target>& targets, double 
 bool settle(HybridMesh& mesh, EdgePoint* begin, EdgePoint* end, const CutContext& context) {
   const AncestorEdgeId edge = begin->edge;
   const double unit = mesh.ancestors.rest_length(edge) / lattice_size;
-  std::vector<Target> targets = targets_of(mesh, edge, context);
+  const MergeDistances distances = local_distances(context.distances, unit * lattice_size, unit);
+  std::vector<Target> targets = targets_of(mesh, edge, distances, context);
   std::vector<EdgePoint*> fresh;
   for (EdgePoint* p = begin; p != end; ++p)
     if (!merge_to_node(*p, targets, unit)) fresh.push_back(p);
   for (std::size_t i = 0; i < fresh.size();) {
     std::size_t last = i;
-    while (last + 1 < fresh.size() && unit * (fresh[last + 1]->t - fresh[i]->t) <= context.distances.node)
-      ++last;
+    while (last + 1 < fresh.size() && unit * (fresh[last + 1]->t - fresh[i]->t) <= distances.node) ++last;
     const std::int32_t middle = fresh[i]->t + (fresh[last]->t - fresh[i]->t) / 2;
     const EdgePoint* centre = *std::min_element(fresh.begin() + static_cast<std::ptrdiff_t>(i),
                                                 fresh.begin() + static_cast<std::ptrdiff_t>(last) + 1,
@@ -85,7 +86,7 @@ bool settle(HybridMesh& mesh, EdgePoint* begin, EdgePoint* end, const CutContext
                                                 });
     i = last + 1;
     insert_boundary_node(edge_state_for_writing(mesh, edge), centre->t, context.this_cut);
-    targets.push_back({centre->t, false, centre->t, context.distances.node});
+    targets.push_back({centre->t, false, centre->t, distances.node});
   }
   for (EdgePoint* p = begin; p != end; ++p) merge_to_node(*p, targets, unit);
   return !fresh.empty();
@@ -151,7 +152,7 @@ void merge_on_physics_edges(HybridMesh& mesh, std::vector<TriangleWork>& works, 
   for (const AncestorId t : beside) {
     while (next < with_lines && works[next].ancestor < t) ++next;
     if (next < with_lines && works[next].ancestor == t) continue;
-    works.push_back({t, rest_metric(ancestors, t), working_arrangement(mesh, t)});
+    works.push_back(make_work(mesh, t, context.distances));
   }
   std::inplace_merge(works.begin(), works.begin() + static_cast<std::ptrdiff_t>(with_lines), works.end(),
                      [](const TriangleWork& a, const TriangleWork& b) { return a.ancestor < b.ancestor; });

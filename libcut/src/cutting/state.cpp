@@ -1,5 +1,7 @@
 #include "cutting/state.hpp"
 
+#include <algorithm>
+
 #include "mesh/vector3.hpp"
 
 namespace cut {
@@ -38,6 +40,18 @@ Arrangement working_arrangement(const HybridMesh& mesh, AncestorId ancestor) {
     }
   }
   return result;
+}
+
+MergeDistances local_distances(const MergeDistances& distances, double size, double unit) {
+  const double factor = std::min(1.0, std::max(size / (4 * distances.cut), 2 * unit / distances.edge));
+  return {distances.cut * factor, distances.node * factor, distances.edge * factor};
+}
+
+TriangleWork make_work(const HybridMesh& mesh, AncestorId ancestor, const MergeDistances& distances) {
+  const lattice::Metric metric = rest_metric(mesh.ancestors, ancestor);
+  return {ancestor, metric,
+          local_distances(distances, metric.smallest_height(), metric.longest_edge() / lattice_size),
+          working_arrangement(mesh, ancestor)};
 }
 
 lattice::Metric rest_metric(const AncestorMesh& ancestors, AncestorId ancestor) {

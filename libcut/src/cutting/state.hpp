@@ -55,7 +55,8 @@ struct CuttingLine {
 struct TriangleWork {
   AncestorId ancestor;
   lattice::Metric metric;
-  Arrangement before;  ///< as the last cut left it; an uncut triangle's is made up
+  MergeDistances distances;  ///< of this triangle, see local_distances
+  Arrangement before;        ///< as the last cut left it; an uncut triangle's is made up
   std::vector<CuttingLine> lines{};
 
   // From arrange_triangle on:
@@ -107,17 +108,23 @@ struct ClusterCentres {
   }
 };
 
+/// How near a line end must come to where an earlier one was detected to be taken for the same. Not a merge
+/// distance: with one, a blade that goes on in small steps would drag the end of its cut along instead of
+/// cutting.
+inline double same_place(const MergeDistances& distances) { return distances.edge * 1e-3; }
+
+/// The merge distances for an edge of this length, or a triangle of this height: made smaller, all three by
+/// the same factor, until δc is a quarter of it. A small triangle in a coarse mesh would otherwise merge with
+/// what is cut in it.
+/// @param unit length of a lattice unit there, twice which is the least that δe becomes
+MergeDistances local_distances(const MergeDistances& distances, double size, double unit);
+
 /// What all steps need to know of this call.
 struct CutContext {
   const MergeDistances& distances;
   const ClusterCentres& centres;
   std::uint32_t this_cut;      ///< number of this call, for stamps
   std::uint32_t previous_cut;  ///< number of the cutter's previous call; 0: none
-
-  /// How near a line end must come to where an earlier one was detected to be taken for the same. Not a merge
-  /// distance: with one, a blade that goes on in small steps would drag the end of its cut along instead of
-  /// cutting.
-  [[nodiscard]] double same_place() const { return distances.edge * 1e-3; }
 
   /// True for nodes that attract line ends from δc.
   [[nodiscard]] bool recent(std::uint32_t stamp) const { return stamp != 0 && stamp == previous_cut; }
@@ -126,6 +133,9 @@ struct CutContext {
 /// The arrangement of an ancestor, or that of an uncut triangle when it has none; stamps of nodes that it
 /// shares with its neighbours are brought up to date.
 Arrangement working_arrangement(const HybridMesh& mesh, AncestorId ancestor);
+
+/// A work without lines.
+TriangleWork make_work(const HybridMesh& mesh, AncestorId ancestor, const MergeDistances& distances);
 
 /// Squared tension-free lengths of the ancestor's edges.
 lattice::Metric rest_metric(const AncestorMesh& ancestors, AncestorId ancestor);

@@ -85,8 +85,7 @@ std::vector<Contact> contacts_of(const TriangleWork& work, const DisjointPolygon
 
 /// Takes back the new edges that cut off crumbs, the smallest first. A crumb beside one that was welded, or
 /// that had to wait, waits for the next round, in which it may be none. @return false when there is none
-bool weld_crumbs(const HybridMesh& mesh, TriangleWork& work, const DisjointPolygons& polygons,
-                 const CutContext& context) {
+bool weld_crumbs(const HybridMesh& mesh, TriangleWork& work, const DisjointPolygons& polygons) {
   const Arrangement& arrangement = polygons.arrangement;
   if (arrangement.polygons.size() <= work.before.polygons.size()) return false;
   const auto joined = joined_to_neighbours(mesh, work, arrangement);
@@ -95,7 +94,7 @@ bool weld_crumbs(const HybridMesh& mesh, TriangleWork& work, const DisjointPolyg
   for (Index c = 0; c < contacts.size(); ++c) {
     const Index p = contacts[c].polygon;
     if ((c == 0 || contacts[c - 1].polygon != p) && joined[p] == 0 &&
-        width(work, polygons, p) < context.distances.node)
+        width(work, polygons, p) < work.distances.node)
       crumbs.push_back(c);
   }
   std::sort(crumbs.begin(), crumbs.end(), [&](Index a, Index b) {
@@ -142,10 +141,10 @@ bool keeps_all_fragments(const TriangleWork& work, const DisjointPolygons& polyg
   return std::find(kept.begin(), kept.end(), 0) == kept.end();
 }
 
-DisjointPolygons weld_slivers(const HybridMesh& mesh, TriangleWork& work, const CutContext& context) {
+DisjointPolygons weld_slivers(const HybridMesh& mesh, TriangleWork& work) {
   if (!work.graph.complete) return {};
   DisjointPolygons polygons = detect_disjoint_polygons(work);
-  while (weld_crumbs(mesh, work, polygons, context)) {
+  while (weld_crumbs(mesh, work, polygons)) {
     work.changed = differs_from_before(work);
     polygons = detect_disjoint_polygons(work);
   }

@@ -14,7 +14,7 @@ namespace cut {
 /// cut has separated is joined again. Without this, the same cut made twice leaves crumbs where merging had
 /// led its line beside where it was detected.
 /// Nothing when the work's graph is not complete.
-DisjointPolygons weld_slivers(const HybridMesh& mesh, TriangleWork& work, const CutContext& context);
+DisjointPolygons weld_slivers(const HybridMesh& mesh, TriangleWork& work);
 
 /// False when rounding has left nothing of a fragment that was there before, or has failed: the lines must
 /// not be cut.

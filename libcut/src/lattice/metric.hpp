@@ -27,6 +27,10 @@ class Metric {
       : edge_(squared_rest_lengths),
         doubled_area_squared_((4 * edge_[0] * edge_[2] - square(edge_[0] + edge_[2] - edge_[1])) / 4) {}
 
+  [[nodiscard]] double longest_edge() const { return std::sqrt(std::max({edge_[0], edge_[1], edge_[2]})); }
+  [[nodiscard]] double smallest_height() const {
+    return std::sqrt(std::max(doubled_area_squared_, 0.0)) / longest_edge();
+  }
   [[nodiscard]] constexpr double squared_length(Vector d) const { return std::max(inner_product(d, d), 0.0); }
   [[nodiscard]] double length(LatticePoint a, LatticePoint b) const {
     return std::sqrt(squared_length(b - a));

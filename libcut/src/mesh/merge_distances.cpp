@@ -21,13 +21,13 @@ Result<MergeDistances> checked(const MergeDistances& d, const HybridMesh& mesh) 
   for (std::size_t e = 0; e < mesh.ancestors.edges.size(); ++e)
     longest = std::max(longest, mesh.ancestors.rest_length(AncestorEdgeId{e}));
   const double unit = longest / lattice_size;
-  if (std::isfinite(d.cut) && d.cut >= d.node && d.node >= d.edge && d.edge > unit) return d;
+  if (d.cut <= longest && d.cut >= d.node && d.node >= d.edge && d.edge > unit) return d;
   std::array<char, 256> text{};
-  std::snprintf(
-      text.data(), text.size(),
-      "the merge distances must satisfy cut >= node >= edge > %.6g (the longest edge / 2^25), but they are "
-      "cut = %.6g, node = %.6g, edge = %.6g",
-      unit, d.cut, d.node, d.edge);
+  std::snprintf(text.data(), text.size(),
+                "the merge distances must satisfy %.6g >= cut >= node >= edge > %.6g (the longest edge, and "
+                "it / 2^25), but they are "
+                "cut = %.6g, node = %.6g, edge = %.6g",
+                longest, unit, d.cut, d.node, d.edge);
   return Error{Error::Kind::bad_merge_distances, text.data(), 0};
 }
 
