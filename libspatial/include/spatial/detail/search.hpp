@@ -22,11 +22,11 @@ inline constexpr std::size_t stack_inline = 128;
 
 template <class Core>
 CoreRows<Core> rows_of(const typename Core::NodeType& node) {
-  return {&node.rows[0][0], Core::NodeType::lanes};
+  return {&node.rows[0][0], Core::NodeType::lanes, Core::dimension * Core::NodeType::lanes};
 }
 template <class Core>
 CoreRows<Core> rows_of(const typename Core::LeafType& leaf) {
-  return {leaf.row(0), leaf.capacity};
+  return {leaf.min_row(0), leaf.capacity, (leaf.rows - Core::dimension) * leaf.capacity};
 }
 
 /// What a search looked at.
@@ -57,6 +57,14 @@ class Waiting {
       node_count_ += is_hit & (is_leaf ^ 1u);
     }
     if (node_count_ + 3 > inline_nodes) spill();
+  }
+  /// Asks memory for the node that comes after the next one.
+  template <class Core>
+  void prefetch_second(const Core& core) const {
+    if (node_count_ < 2) return;
+    const auto& node = core.node(ChildRef{nodes_[node_count_ - 2]}.index());
+    const auto* begin = reinterpret_cast<const char*>(&node);
+    for (std::size_t i = 0; i < sizeof(node); i += 64) prefetch(begin + i);
   }
   bool pop_node(ChildRef& ref) {
     if (node_count_ == 0 && !unspill()) return false;
@@ -119,10 +127,21 @@ bool search(const Core& core, const Bound& predicate, Visit&& visit, Counts&& co
       counts.node();
       const std::uint32_t hit = here.is_inside() ? 0x77u : predicate.may_and_must(rows_of<Core>(node));
       waiting.push(node.child, hit);
+      waiting.prefetch_second(core);
     }
     if (waiting.leaf_count() == 0) return true;
+    // A leaf's boxes are two steps away: first all headers are asked for, then the boxes of the one after
+    // next.
+    for (std::size_t i = 0; i < waiting.leaf_count(); ++i) prefetch(&core.leaf(waiting.leaf(i).index()));
     for (std::size_t i = 0; i < waiting.leaf_count(); ++i) {
       const ChildRef ref = waiting.leaf(i);
+      if (i + 1 < waiting.leaf_count()) {
+        const auto& soon = core.leaf(waiting.leaf(i + 1).index());
+        for (std::size_t a = 0; a < Core::dimension; ++a) {
+          prefetch(soon.min_row(a));
+          prefetch(soon.max_row(a));
+        }
+      }
       const auto& leaf = core.leaf(ref.index());
       counts.leaf(leaf.count);
       if (!search_leaf<Core>(leaf, ref.is_inside(), predicate, visit)) return false;
