@@ -168,7 +168,7 @@ class Run {
       T rows[2 * D + 16] = {};
       for (std::size_t a = 0; a < D; ++a) rows[a] = b.min[a], rows[D + a] = b.max[a];
       typename Metric::S result[spatial::detail::keys_room];
-      Metric(q).keys({rows, 1}, 1, result);
+      Metric(q).keys({rows, 1, D}, 1, result);
       return Metric::distance(result[0]);
     };
     std::vector<typename Metric::S> expected;

@@ -74,6 +74,14 @@ template <class T, std::size_t D>
   return valid;
 }
 
+/// True if the box has no extent on any axis.
+template <class T, std::size_t D>
+[[nodiscard]] constexpr bool is_point(const Box<T, D>& box) {
+  bool result = true;
+  for (std::size_t axis = 0; axis < D; ++axis) result &= box.min[axis] == box.max[axis];
+  return result;
+}
+
 /// The box that contains nothing and that extend() grows from: min > max on every axis.
 template <class T, std::size_t D>
 [[nodiscard]] constexpr Box<T, D> empty_box() {

@@ -3,6 +3,7 @@
 /// give (§5.1), made from the top. In: boxes with slot indices. Out: nodes, and leaves that hold boxes and
 /// slot indices but no values.
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -41,7 +42,7 @@ class Build {
   Build& operator=(const Build&) = delete;
   /// Frees the leaves unless they were taken over.
   ~Build() {
-    for (LeafType& leaf : leaves) Core::Memory::free(allocator_, leaf.data, leaf.capacity);
+    for (LeafType& leaf : leaves) Core::Memory::free(allocator_, leaf);
   }
 
   /// @pre every box is valid
@@ -51,6 +52,7 @@ class Build {
     Entry* const buffers[2] = {entries.data(), other.data()};
     std::vector<Task> tasks;
     const Box<T, D> all = bounds(entries.data(), entries.data() + entries.size());
+    all_points_ = std::all_of(entries.begin(), entries.end(), [](const Entry& e) { return is_point(e.box); });
     tasks.push_back({Cell<T, D>::cube_around(all), 0, entries.size(), none, 0, 0});
     while (!tasks.empty()) {
       const Task task = tasks.back();
@@ -169,7 +171,8 @@ class Build {
   void make_leaf(const Task& task, const Entry* entries, std::uint32_t count) {
     leaves.push_back({});
     LeafType& leaf = leaves.back();
-    leaf.data = Core::Memory::allocate(allocator_, count);
+    leaf.rows = static_cast<std::uint8_t>(all_points_ ? D : 2 * D);
+    leaf.data = Core::Memory::allocate(allocator_, count, leaf.rows);
     leaf.capacity = count;
     leaf.count = count;
     leaf.parent = task.parent;
@@ -184,6 +187,7 @@ class Build {
 
   typename Core::AllocatorType allocator_;
   std::vector<std::uint8_t> sides_;
+  bool all_points_ = false;
 };
 
 }  // namespace spatial::detail

@@ -112,7 +112,7 @@ TreeStatistics statistics(const Core& core) {
       ++result.leaves;
       result.depth = depth > result.depth ? depth : result.depth;
       result.largest_leaf = leaf.count > result.largest_leaf ? leaf.count : result.largest_leaf;
-      result.bytes += leaf.bytes(leaf.capacity);
+      result.bytes += leaf.bytes(leaf.capacity, leaf.rows);
     } else {
       ++result.nodes;
     }

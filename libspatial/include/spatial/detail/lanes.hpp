@@ -12,13 +12,17 @@
 
 namespace spatial::detail {
 
-/// Rows of coordinates: row r begins at first + r * stride; min[a] is row a, max[a] is row D + a.
+/// Rows of coordinates: min[a] begins at first + a * stride, max[a] at that + upper, which is 0 where all
+/// boxes are points.
 template <class T, std::size_t D>
 struct Rows {
   const T* first;
   std::size_t stride;
-  [[nodiscard]] T min(std::size_t axis, std::size_t i) const { return first[axis * stride + i]; }
-  [[nodiscard]] T max(std::size_t axis, std::size_t i) const { return first[(D + axis) * stride + i]; }
+  std::size_t upper;
+  [[nodiscard]] T min(std::size_t axis, std::size_t i) const { return low(axis)[i]; }
+  [[nodiscard]] T max(std::size_t axis, std::size_t i) const { return high(axis)[i]; }
+  [[nodiscard]] const T* low(std::size_t axis) const { return first + axis * stride; }
+  [[nodiscard]] const T* high(std::size_t axis) const { return first + upper + axis * stride; }
   [[nodiscard]] Box<T, D> box(std::size_t i) const {
     Box<T, D> result;
     for (std::size_t a = 0; a < D; ++a) {
@@ -27,7 +31,7 @@ struct Rows {
     }
     return result;
   }
-  [[nodiscard]] Rows from(std::size_t i) const { return {first + i, stride}; }
+  [[nodiscard]] Rows from(std::size_t i) const { return {first + i, stride, upper}; }
 };
 
 /// As many boxes as one mask has bits.
@@ -126,8 +130,8 @@ std::uint32_t reaching(const Rows<T, D>& rows, std::size_t count, const Point<T,
       typename P::M inside{};
       for (std::size_t a = 0; a < D; ++a) {
         V least, greatest;
-        std::memcpy(&least, rows.first + a * rows.stride + i, sizeof(V));
-        std::memcpy(&greatest, rows.first + (D + a) * rows.stride + i, sizeof(V));
+        std::memcpy(&least, rows.low(a) + i, sizeof(V));
+        std::memcpy(&greatest, rows.high(a) + i, sizeof(V));
         const auto both = (least <= high[a]) & (greatest >= low[a]);
         inside = a == 0 ? both : inside & both;
       }
@@ -158,8 +162,8 @@ std::uint32_t covered(const Rows<T, D>& rows, std::size_t count, const Point<T, 
       typename P::M inside{};
       for (std::size_t a = 0; a < D; ++a) {
         V least, greatest;
-        std::memcpy(&least, rows.first + a * rows.stride + i, sizeof(V));
-        std::memcpy(&greatest, rows.first + (D + a) * rows.stride + i, sizeof(V));
+        std::memcpy(&least, rows.low(a) + i, sizeof(V));
+        std::memcpy(&greatest, rows.high(a) + i, sizeof(V));
         const auto both = (least >= low[a]) & (greatest <= high[a]);
         inside = a == 0 ? both : inside & both;
       }

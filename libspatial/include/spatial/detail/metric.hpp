@@ -27,7 +27,9 @@ class BoxMetric {
  public:
   using S = DistanceOf<T>;
   static constexpr S never = std::numeric_limits<S>::quiet_NaN();
-  explicit BoxMetric(const Box<T, D>& query) : q_(query), valid_(is_valid(query)) {}
+  explicit BoxMetric(const Box<T, D>& query) : q_(query), valid_(is_valid(query)), point_(is_point(query)) {
+    for (const T x : query.min) point_ &= x - x == 0;
+  }
 
   /// keys[i] is the key of box i, or NaN for one that is never reached. There is room for keys_room of them;
   /// those beyond `count` mean nothing. @pre count <= mask_bits
@@ -35,12 +37,25 @@ class BoxMetric {
 #ifdef SPATIAL_WIDE
     if constexpr (Pack<T>::width != 0) {
       using V = typename Pack<T>::V;
+      if (rows.upper == 0 && point_) {
+        for (std::size_t i = 0; i < count; i += Pack<T>::width) {
+          V sum{};
+          for (std::size_t a = 0; a < D; ++a) {
+            V x;
+            std::memcpy(&x, rows.low(a) + i, sizeof(V));
+            const V gap = x - q_.min[a];
+            sum += gap * gap;
+          }
+          std::memcpy(keys + i, &sum, sizeof(V));
+        }
+        return;
+      }
       for (std::size_t i = 0; i < count; i += Pack<T>::width) {
         V sum = V{} + (valid_ ? S{0} : never);
         for (std::size_t a = 0; a < D; ++a) {
           V low, high;
-          std::memcpy(&low, rows.first + a * rows.stride + i, sizeof(V));
-          std::memcpy(&high, rows.first + (D + a) * rows.stride + i, sizeof(V));
+          std::memcpy(&low, rows.low(a) + i, sizeof(V));
+          std::memcpy(&high, rows.high(a) + i, sizeof(V));
           const V above = low - q_.max[a];
           const V below = q_.min[a] - high;
           const V outside = above > below ? above : below;
@@ -54,8 +69,8 @@ class BoxMetric {
 #endif
     for (std::size_t i = 0; i < count; ++i) keys[i] = valid_ ? S{0} : never;
     for (std::size_t a = 0; a < D; ++a) {
-      const T* low = rows.first + a * rows.stride;
-      const T* high = rows.first + (D + a) * rows.stride;
+      const T* low = rows.low(a);
+      const T* high = rows.high(a);
       const S least = static_cast<S>(q_.min[a]);
       const S greatest = static_cast<S>(q_.max[a]);
       for (std::size_t i = 0; i < count; ++i) {
@@ -67,11 +82,14 @@ class BoxMetric {
       }
     }
   }
+  /// On which side of a plane to look first.
+  [[nodiscard]] bool is_higher(std::size_t axis, T plane) const { return q_.min[axis] > plane; }
   [[nodiscard]] static S distance(S key) { return std::sqrt(key); }
 
  private:
   Box<T, D> q_;
   bool valid_;
+  bool point_;  // with finite coordinates
 };
 
 /// The t at which a path enters a box.
@@ -99,8 +117,8 @@ class PathMetric {
       leave[i] = limit_;
     }
     for (std::size_t a = 0; a < D; ++a) {
-      const T* low = rows.first + a * rows.stride;
-      const T* high = rows.first + (D + a) * rows.stride;
+      const T* low = rows.low(a);
+      const T* high = rows.high(a);
       const S o = origin_[a];
       const S d = direction_[a];
       if (d == 0) {
@@ -119,6 +137,9 @@ class PathMetric {
       }
     }
     for (std::size_t i = 0; i < count; ++i) keys[i] = keys[i] <= leave[i] ? keys[i] : never;
+  }
+  [[nodiscard]] bool is_higher(std::size_t axis, T plane) const {
+    return origin_[axis] > static_cast<S>(plane);
   }
   [[nodiscard]] static S distance(S key) { return key; }
 

@@ -225,24 +225,51 @@ void visit_first(const Core& core, const Metric& metric, const Filter& filter, s
     ChildRef place;
   };
   SmallStack<Part, stack_inline> waiting;
-  waiting.push({S{0}, core.root()});
   S keys[keys_room];
-  while (!waiting.empty()) {
-    const Part here = waiting.pop();
-    if (!best.wants(here.key)) continue;
-    if (!here.place.is_leaf()) {
-      const auto& node = core.node(here.place.index());
-      metric.keys(rows_of<Core>(node), 3, keys);
-      // Farthest first onto the stack. The centric child goes where its key says.
-      std::uint32_t order[3] = {0, 1, 2};
+  // Puts the children that may hold something near onto the stack, except one, farthest first.
+  const auto open = [&](const typename Core::NodeType& node, std::uint32_t except) {
+    metric.keys(rows_of<Core>(node), 3, keys);
+    const std::uint32_t near = below(keys, 3, best.worst(), !best.full()) & ~(1u << except);
+    if (near == 0) return;
+    // The centric child goes where its key says.
+    std::uint32_t order[3] = {0, 1, 2};
+    if ((near & (near - 1)) != 0) {
       if (keys[order[0]] < keys[order[1]]) std::swap(order[0], order[1]);
       if (keys[order[1]] < keys[order[2]]) std::swap(order[1], order[2]);
       if (keys[order[0]] < keys[order[1]]) std::swap(order[0], order[1]);
-      for (const std::uint32_t s : order) {
-        if (node.child[s].empty() || !best.wants(keys[s])) continue;
-        if (!all_pass && !filter.may(node.child_box(s))) continue;
-        waiting.push({keys[s], node.child[s]});
-      }
+    }
+    for (const std::uint32_t s : order) {
+      if (((near >> s) & 1u) == 0 || node.child[s].empty()) continue;
+      if (!all_pass && !filter.may(node.child_box(s))) continue;
+      waiting.push({keys[s], node.child[s]});
+    }
+  };
+  // First straight down by the planes, as long as nothing lies across them: a plane is compared sooner than
+  // three boxes. What is beside this way is looked at afterwards, from below: most of it is too far by then.
+  Part here{S{0}, core.root()};
+  std::uint32_t above = Core::none;
+  std::uint32_t side = 0;
+  while (!here.place.is_leaf()) {
+    const auto& node = core.node(here.place.index());
+    if (!node.child[centric].empty()) break;
+    above = here.place.index();
+    side = metric.is_higher(node.axis, node.plane) ? higher : lower;
+    here.place = node.child[side];
+  }
+  waiting.push(here);
+  for (;;) {
+    if (waiting.empty()) {
+      if (above == Core::none) break;
+      const auto& node = core.node(above);
+      open(node, side);
+      above = node.parent;
+      side = node.side;
+      continue;
+    }
+    here = waiting.pop();
+    if (!best.wants(here.key)) continue;
+    if (!here.place.is_leaf()) {
+      open(core.node(here.place.index()), 3);
       continue;
     }
     const auto& leaf = core.leaf(here.place.index());

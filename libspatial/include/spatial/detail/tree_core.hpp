@@ -10,6 +10,7 @@
 ///   falls beside them;
 /// - the root's volume doubles when something lies outside.
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -112,6 +113,7 @@ class TreeCore {
         (nodes_[home.parent].cell.holds(box) && nodes_[home.parent].side_of(box) == home.side);
     // A leaf over the soft limit may have become divisible when its tight box grows; making room finds out.
     if (same_place && (home.count <= leaf_limit || encloses(link_box(home.parent, home.side), box))) {
+      if (home.is_flat() && !is_point(box)) enlarge_leaf(where.leaf, home.capacity, 2 * D);
       const BoxType old = home.box(where.position);
       home.set_box(where.position, box);
       const BoxType tight = link_box(home.parent, home.side);
@@ -194,7 +196,8 @@ class TreeCore {
       to.side = from.side;
       to.loose = from.loose;
       to.indivisible = from.indivisible;
-      to.data = Memory::allocate(allocator_, from.capacity);
+      to.rows = from.rows;
+      to.data = Memory::allocate(allocator_, from.capacity, from.rows);
       to.capacity = from.capacity;
       for (std::uint32_t i = 0; i < from.count; ++i, ++to.count) {
         to.set_box(i, from.box(i));
@@ -344,23 +347,24 @@ class TreeCore {
     nodes_[index].parent = free_node_;
     free_node_ = index;
   }
-  std::uint32_t new_leaf(std::uint32_t capacity) {
+  std::uint32_t new_leaf(std::uint32_t capacity, std::uint8_t rows) {
     if (free_leaf_ == none) {
       leaves_.push_back({});
       leaves_.back().parent = none;
       free_leaf_ = static_cast<std::uint32_t>(leaves_.size() - 1);
     }
-    std::byte* data = Memory::allocate(allocator_, capacity);
+    std::byte* data = Memory::allocate(allocator_, capacity, rows);
     const std::uint32_t index = free_leaf_;
     free_leaf_ = leaves_[index].parent;
     leaves_[index] = LeafType{};
     leaves_[index].data = data;
     leaves_[index].capacity = capacity;
+    leaves_[index].rows = rows;
     return index;
   }
   void release_leaf_memory(LeafType& which) noexcept {
     for (std::uint32_t i = 0; i < which.count; ++i) which.values()[i].~Value();
-    Memory::free(allocator_, which.data, which.capacity);
+    Memory::free(allocator_, which);
     which = LeafType{};
   }
   void free_leaf(std::uint32_t index) {
@@ -389,23 +393,22 @@ class TreeCore {
     slots_[id].position = end;
   }
 
-  void grow_leaf(std::uint32_t index) {
-    const std::uint32_t capacity = capacity_for(leaves_[index].count + 1);
+  void enlarge_leaf(std::uint32_t index, std::uint32_t capacity, std::uint8_t rows) {
     LeafType bigger = leaves_[index];
     bigger.capacity = capacity;
-    bigger.data = Memory::allocate(allocator_, capacity);
+    bigger.rows = rows;
+    bigger.data = Memory::allocate(allocator_, capacity, rows);
     LeafType& old = leaves_[index];
-    for (std::size_t r = 0; r < 2 * D; ++r) {
-      const T* from = old.row(r);
-      T* to = bigger.row(r);
-      for (std::uint32_t i = 0; i < old.count; ++i) to[i] = from[i];
+    for (std::size_t a = 0; a < D; ++a) {
+      std::copy_n(old.min_row(a), old.count, bigger.min_row(a));
+      if (!bigger.is_flat()) std::copy_n(old.max_row(a), old.count, bigger.max_row(a));
     }
     for (std::uint32_t i = 0; i < old.count; ++i) {
       bigger.ids()[i] = old.ids()[i];
       ::new (static_cast<void*>(bigger.values() + i)) Value(std::move(old.values()[i]));
       old.values()[i].~Value();
     }
-    Memory::free(allocator_, old.data, old.capacity);
+    Memory::free(allocator_, old);
     old = bigger;
   }
 
@@ -415,9 +418,9 @@ class TreeCore {
   Slot make_room(const BoxType& box, std::uint32_t id) {
     std::uint32_t parent = none;
     std::uint32_t side = 0;
+    ChildRef here = root_;
     for (;;) {
-      const ChildRef here = link(parent, side);
-      if (here.empty()) return append(attach_new_leaf(parent, side), box, id);
+      if (here.empty()) return append(attach_new_leaf(parent, side, box), box, id);
       if (here.is_leaf()) {
         const std::uint32_t index = here.index();
         const LeafType& there = leaves_[index];
@@ -425,21 +428,37 @@ class TreeCore {
             !split_leaf(index, box)) {
           return append(index, box, id);
         }
+        here = link(parent, side);
         continue;
       }
       const std::uint32_t index = here.index();
-      if ((nodes_[index].compressed || parent == none) && !nodes_[index].cell.holds(box)) {
+      const NodeType& node = nodes_[index];
+      if ((node.compressed || parent == none) && !node.cell.holds(box)) {
         const std::uint32_t above = insert_node_above(index, box);
-        return append(attach_new_leaf(above, nodes_[above].side_of(box)), box, id);
+        return append(attach_new_leaf(above, nodes_[above].side_of(box), box), box, id);
       }
       parent = index;
-      side = nodes_[index].side_of(box);
+      // Branches: half of the guesses are wrong, but a right one starts on the next node at once.
+      if (box.max[node.axis] <= node.plane) {
+        side = lower;
+        here = node.child[lower];
+      } else if (box.min[node.axis] >= node.plane) {
+        side = higher;
+        here = node.child[higher];
+      } else {
+        side = centric;
+        here = node.child[centric];
+      }
     }
   }
 
   Slot append(std::uint32_t index, const BoxType& box, std::uint32_t id) {
-    if (leaves_[index].count == leaves_[index].capacity) grow_leaf(index);
     LeafType& target = leaves_[index];
+    const bool widen = target.is_flat() && !is_point(box);
+    if (target.count == target.capacity || widen) {
+      enlarge_leaf(index, target.count == target.capacity ? capacity_for(target.count + 1) : target.capacity,
+                   widen ? 2 * D : target.rows);
+    }
     const std::uint32_t end = target.count++;
     target.set_box(end, box);
     target.ids()[end] = id;
@@ -447,8 +466,8 @@ class TreeCore {
     return {index, end, 0};
   }
 
-  std::uint32_t attach_new_leaf(std::uint32_t parent, std::uint32_t side) {
-    const std::uint32_t index = new_leaf(leaf_limit / 4);
+  std::uint32_t attach_new_leaf(std::uint32_t parent, std::uint32_t side, const BoxType& box) {
+    const std::uint32_t index = new_leaf(leaf_limit / 4, is_point(box) ? D : 2 * D);
     attach_leaf(index, parent, side);
     return index;
   }
@@ -556,8 +575,8 @@ class TreeCore {
     std::uint32_t counts[3] = {0, 0, 0};
     {
       const LeafType& old = leaves_[index];
-      const T* low = old.row(at.axis);
-      const T* high = old.row(D + at.axis);
+      const T* low = old.min_row(at.axis);
+      const T* high = old.max_row(at.axis);
       for (std::uint32_t i = 0; i < old.count; ++i) ++counts[side_of(low[i], high[i], at.plane)];
     }
     const std::uint32_t made = new_node();
@@ -566,7 +585,7 @@ class TreeCore {
     std::uint32_t leaves[3] = {none, none, none};
     Undo undo{this, made, leaves};
     for (std::uint32_t s = 0; s < 3; ++s) {
-      if (counts[s] > 0) leaves[s] = new_leaf(capacity_for(counts[s]));
+      if (counts[s] > 0) leaves[s] = new_leaf(capacity_for(counts[s]), leaves_[index].rows);
     }
     undo.core = nullptr;
     NodeType& node = nodes_[made];
@@ -577,7 +596,7 @@ class TreeCore {
     for (std::size_t s = 0; s < NodeType::lanes; ++s) node.set_child_box(s, empty_box<T, D>());
     LeafType& old = leaves_[index];
     for (std::uint32_t i = 0; i < old.count; ++i) {
-      const Side to = side_of(old.row(at.axis)[i], old.row(D + at.axis)[i], at.plane);
+      const Side to = side_of(old.min_row(at.axis)[i], old.max_row(at.axis)[i], at.plane);
       move_element(old, i, leaves[to]);
     }
     old.count = 0;
@@ -735,11 +754,16 @@ class TreeCore {
     NodeType& node = nodes_[index];
     std::uint32_t total = 0;
     std::uint32_t target = none;
+    bool flat = true;
     for (const ChildRef child : node.child) {
-      if (!child.empty()) total += leaves_[child.index()].count;
+      if (child.empty()) continue;
+      total += leaves_[child.index()].count;
+      flat &= leaves_[child.index()].is_flat();
     }
     for (const ChildRef child : node.child) {
-      if (!child.empty() && leaves_[child.index()].capacity >= total) target = child.index();
+      if (child.empty()) continue;
+      const LeafType& leaf = leaves_[child.index()];
+      if (leaf.capacity >= total && leaf.is_flat() == flat) target = child.index();
     }
     if (target == none) return false;
     for (const ChildRef child : node.child) {
