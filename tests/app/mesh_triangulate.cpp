@@ -147,3 +147,39 @@ TEST_CASE("triangulate: the largest polygon, a spiral, in a second") {
   }
   check_covers(polygon);
 }
+
+TEST_CASE("triangulate: corners on a straight side do not leave a flat triangle") {
+  // A modeller leaves them where a neighbour is finer. Rounding once decided whether such a side became a
+  // triangle, which was dropped, so that the sheet tore.
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> number(-1, 1);
+  for (int round = 0; round < 2000; ++round) {
+    CAPTURE(round);
+    // A convex outline with up to four extra corners on each side.
+    std::vector<Eigen::Vector3d> outline;
+    const std::size_t sides = 3 + random() % 4;
+    const Eigen::Vector3d u = Eigen::Vector3d(number(random), number(random), number(random)).normalized();
+    const Eigen::Vector3d v =
+        u.cross(Eigen::Vector3d(number(random), number(random), number(random))).normalized();
+    for (std::size_t i = 0; i < sides; ++i) {
+      const double angle = 6.283185307179586 * static_cast<double>(i) / static_cast<double>(sides);
+      outline.emplace_back(u * std::cos(angle) + v * (0.2 + 0.1 * number(random)) * std::sin(angle));
+    }
+    std::vector<Eigen::Vector3d> polygon;
+    for (std::size_t i = 0; i < sides; ++i) {
+      const Eigen::Vector3d& next = outline[(i + 1) % sides];
+      const auto extra = static_cast<int>(random() % 5);
+      for (int k = 0; k <= extra; ++k)
+        polygon.emplace_back(outline[i] + (next - outline[i]) * (double(k) / (extra + 1)));
+    }
+    std::rotate(polygon.begin(), polygon.begin() + static_cast<std::ptrdiff_t>(random() % polygon.size()),
+                polygon.end());
+    std::vector<snip::Triangle> triangles;
+    snip::triangulate_polygon(polygon, triangles);
+    REQUIRE(triangles.size() == polygon.size() - 2);
+    for (const auto& t : triangles) {
+      const double area = (polygon[t[1]] - polygon[t[0]]).cross(polygon[t[2]] - polygon[t[0]]).norm();
+      CHECK(area > 1e-6);
+    }
+  }
+}

@@ -41,6 +41,13 @@ std::vector<Point> project(std::span<const Eigen::Vector3d> polygon) {
 class EarClipper {
  public:
   explicit EarClipper(std::vector<Point> points) : points_(std::move(points)) {
+    Point low = points_[0];
+    Point high = points_[0];
+    for (const Point& p : points_) {
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+    on_line_ = 1e-13 * (high - low).squaredNorm();
     const auto n = static_cast<std::uint32_t>(points_.size());
     previous_.resize(n);
     next_.resize(n);
@@ -106,22 +113,27 @@ class EarClipper {
     if (!(quality > 0)) return 0;
     const Point low = pa.cwiseMin(pb).cwiseMin(pc);
     const Point high = pa.cwiseMax(pb).cwiseMax(pc);
+    const double margin = 1e-12 * (high - low).maxCoeff();
     const auto in_cone_at_b = [&](const Point& p) { return orient(pa, pb, p) > 0 && orient(pb, pc, p) > 0; };
     for (std::uint32_t i = next_[next_[b]]; i != previous_[b]; i = next_[i]) {
       const Point& p = points_[i];
-      if (p.x() < low.x() || p.x() > high.x() || p.y() < low.y() || p.y() > high.y()) continue;
+      if (p.x() < low.x() - margin || p.x() > high.x() + margin || p.y() < low.y() - margin ||
+          p.y() > high.y() + margin)
+        continue;
       if (p == pa || p == pc) continue;
       if (p == pb) {
         // The polygon touches itself at the tip: no ear if it comes out of the tip into the ear.
         if (in_cone_at_b(points_[previous_[i]]) || in_cone_at_b(points_[next_[i]])) return 0;
         continue;
       }
-      if (orient(pa, pb, p) >= 0 && orient(pb, pc, p) >= 0 && orient(pc, pa, p) >= 0) return 0;
+      // A corner on the diagonal, to within rounding, would be left behind in a flat rest.
+      if (orient(pa, pb, p) >= 0 && orient(pb, pc, p) >= 0 && orient(pc, pa, p) >= -on_line_) return 0;
     }
     return quality;
   }
 
   std::vector<Point> points_;
+  double on_line_ = 0;  // twice the area of a triangle that rounding leaves of a flat one
   std::vector<std::uint32_t> previous_;
   std::vector<std::uint32_t> next_;
   std::vector<double> ear_;
