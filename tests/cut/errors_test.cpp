@@ -80,12 +80,14 @@ TEST_CASE("merge distances out of order, or below a lattice unit, are refused") 
   const double unit = std::sqrt(2.0) / cut::lattice_size;  // of the diagonal
   CHECK(cut::checked({0.3, 0.2, 0.1}, mesh).has_value());
   CHECK(cut::checked({0.1, 0.1, 0.1}, mesh).has_value());
+  CHECK(cut::checked({1.41, 0.2, 0.1}, mesh).has_value());
   CHECK(cut::checked({unit * 1.01, unit * 1.01, unit * 1.01}, mesh).has_value());
   for (const cut::MergeDistances& bad : {cut::MergeDistances{0.1, 0.2, 0.05},
                                          {0.3, 0.1, 0.2},
                                          {0.3, 0.2, unit},
                                          {0.3, 0.2, 0},
                                          {0.3, 0.2, -0.1},
+                                         {1.42, 0.2, 0.1},
                                          {infinity, 0.2, 0.1},
                                          {not_a_number, 0.2, 0.1},
                                          {0.3, not_a_number, 0.1},
