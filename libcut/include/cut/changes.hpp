@@ -50,9 +50,9 @@ struct Changes {
 /// @pre `buffers` equals the mesh's buffers before the cut
 void apply(const Changes& changes, Buffers& buffers);
 
-/// The change set that undoes `changes`: from version_after back to version_before, to the bit. Without copies, since
-/// nothing is copied on the way back. It is for buffers; a HybridMesh goes back to an earlier state by being copied.
-/// O(changes). @pre `before` equals the mesh's buffers before the cut
+/// The change set that undoes `changes`: from version_after back to version_before, to the bit. Without
+/// copies, since nothing is copied on the way back. It is for buffers; a HybridMesh goes back to an earlier
+/// state by being copied. O(changes). @pre `before` equals the mesh's buffers before the cut
 [[nodiscard]] Changes inverse(const Changes& changes, const Buffers& before);
 
 }  // namespace cut

@@ -1,6 +1,6 @@
 /// @file
-/// Names for states of meshes: what was computed from a mesh in one state holds as long as the state has the same
-/// name, whichever mesh was copied over it in between.
+/// Names for states of meshes: what was computed from a mesh in one state holds as long as the state has the
+/// same name, whichever mesh was copied over it in between.
 #pragma once
 #include <cstdint>
 
