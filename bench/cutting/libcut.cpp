@@ -1,3 +1,4 @@
+// The experiments with libcut (programs.hpp).
 #include <cstdio>
 #include <cstdlib>
 

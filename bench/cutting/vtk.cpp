@@ -1,3 +1,4 @@
+// The one-shot cut with VTK, with both outputs of vtkClipPolyData (programs.hpp).
 #include <vtkAppendPolyData.h>
 #include <vtkCellArray.h>
 #include <vtkClipPolyData.h>

@@ -1,4 +1,5 @@
-// The include graph keeps to the layers; and the check that says so finds what is planted for it.
+// The include graph keeps to the layers, and files say what they are for; and the check that says so finds
+// what is planted for it.
 #include <doctest/doctest.h>
 
 #include "architecture/rules.hpp"
@@ -14,9 +15,9 @@ TEST_CASE("the project keeps to its layers") {
 
 namespace {
 
-/// A small tree in which every include is allowed.
+/// A small tree in which every include is allowed and every file says what it is for.
 SourceTree sound_tree() {
-  return {
+  SourceTree tree{
       {"libspatial/include/spatial/box.hpp", "#include <array>\n"},
       {"libspatial/include/spatial/adapt/eigen.hpp", "#include <Eigen/Core>\n#include \"spatial/box.hpp\"\n"},
       {"libcut/include/cut/ids.hpp", "#include <cstdint>\n"},
@@ -34,6 +35,8 @@ SourceTree sound_tree() {
       {"tests/app/cut_command_test.cpp", "#include \"snip/cut_command.hpp\"\n"},
       {"bench/progressive.cpp", "#include \"scenes/cloths.hpp\"\n"},
   };
+  for (auto& [path, content] : tree) content.insert(0, "// For a test.\n");
+  return tree;
 }
 
 /// Adds a line to one file of the sound tree and expects a violation with these words in it.
@@ -98,6 +101,24 @@ TEST_CASE("a planted circle is found and named") {
 TEST_CASE("a file without a layer is told where to get one") {
   for (const std::string path : {"libcut/include/cut/unheard_of.hpp", "libcut/src/unheard_of/step.cpp"})
     expect_violation(path, "", path + ": has no layer. Enter it into the table `layers`");
+}
+
+TEST_CASE("a file that does not say what it is for is named") {
+  const auto count = [](const std::string& path, const std::string& content) {
+    SourceTree tree = sound_tree();
+    tree[path] = content;
+    const auto found = violations(tree);
+    for (const std::string& violation : found)
+      CHECK(violation == path + ": begins without a comment that says what it is for");
+    return found.size();
+  };
+  CHECK(count("bench/silent.cpp", "#include <array>\n// Too late.\n") == 1);
+  CHECK(count("libcut/src/lattice/silent.hpp", "#pragma once\n") == 1);
+  CHECK(count("libcut/src/lattice/walk.hpp", "#pragma once\n") == 1);
+  CHECK(count("libcut/src/lattice/silent.cpp", "") == 1);
+  CHECK(count("libcut/src/lattice/walk.cpp", "#include \"lattice/walk.hpp\"\n") == 0);  // its header says it
+  CHECK(count("libcut/src/mesh/walk.cpp", "#include \"lattice/walk.hpp\"\n") == 1);     // not beside it
+  CHECK(count("examples/cut.cpp", "#include <cut/ids.hpp>\n") == 0);
 }
 
 TEST_CASE("what a comment says is no include") {

@@ -1,6 +1,7 @@
 /// @file
-/// The ladder of layers (docs/architecture.md) as a check over the include graph. In: a source tree.
-/// Out: one line for each violation, in words that say what to do about it.
+/// The ladder of layers (docs/architecture.md) as a check over the include graph, and that each file says
+/// what it is for (CONTRIBUTING.md). In: a source tree. Out: one line for each violation, in words that say
+/// what to do about it.
 #pragma once
 #include <string>
 #include <vector>
