@@ -1,6 +1,6 @@
 // The result does not depend on the order of cutter triangles, of physics triangles and nodes, nor on how the
 // cutter is divided; the same cut twice does nothing; many small steps give the same pieces as one big one;
-// moving everything gives the same pieces (design rule 10).
+// moving everything gives the same pieces (docs/cutting.md, "Why in this order").
 #include <doctest/doctest.h>
 #include <rapidcheck.h>
 

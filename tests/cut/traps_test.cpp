@@ -1,6 +1,5 @@
 // Cutters that break cutting methods: through nodes, along edges, coplanar, tangent, without area,
-// overlapping, five cuts through one point, slivers, lines that climb along older cuts (design.md section 4,
-// "Traps").
+// overlapping, five cuts through one point, slivers, lines that climb along older cuts (docs/cutting.md).
 #include <doctest/doctest.h>
 
 #include <cmath>

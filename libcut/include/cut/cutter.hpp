@@ -14,8 +14,8 @@ namespace cut {
 
 /// Milliseconds that the steps of the last cut took.
 struct StepTimings {
-  double broad_phase = 0;      ///< bringing the boxes of moved triangles up to date
-  double detect = 0;           ///< §4.1
+  double broad_phase = 0;      ///< looking whether the mesh has moved; building the tree of the cloth's boxes
+  double detect = 0;           ///< §4.1, the search for candidates in the broad phase's tree included
   double merge_endpoints = 0;  ///< §4.2, nodes on physics edges included
   double arrange = 0;          ///< §4.3 to §4.5, §4.7, §4.9: each triangle by itself
   double reconnect = 0;        ///< §4.6, §4.8, §4.10
@@ -23,7 +23,8 @@ struct StepTimings {
 };
 
 /// Cuts one hybrid mesh, again and again. Remembers between calls which nodes its last cut was part of (δc,
-/// §4.2) and where the triangles were (broad phase). Use one Cutter for each blade.
+/// §4.2) and, while the mesh stands still, where the triangles are (a tree of their boxes). Use one Cutter
+/// for each blade.
 class Cutter {
  public:
   /// @param distances as returned by `checked` or `default_merge_distances`
@@ -38,8 +39,8 @@ class Cutter {
   /// index_out_of_range, not_finite, too_far (a corner beyond 2^40 δe) in `cutter`; not_finite positions of
   /// the cloth.
   /// @pre always called with the same mesh
-  /// Complexity: by the number of triangles that the cutter meets; O(triangles) in addition when the mesh has
-  /// moved, or was cut by another Cutter.
+  /// Complexity: by the number of triangles that the cutter meets. In addition O(triangles · log) when the
+  /// mesh has moved or was cut by another Cutter, and in the next call after that, which builds the tree.
   Result<Changes> cut(HybridMesh& mesh, const TriangleMesh& cutter);
 
   [[nodiscard]] const MergeDistances& distances() const;

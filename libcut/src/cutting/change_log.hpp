@@ -21,8 +21,8 @@ struct ChangeLog {
   std::vector<TriangleCopy> triangle_copies;
 };
 
-/// Step 6 of the design, Publish: the change set of all noted entries with their values now. O(changes ·
-/// log).
+/// The last step (docs/cutting.md, "publish"): the change set of all noted entries with their values now.
+/// O(changes · log).
 Changes publish(const HybridMesh& mesh, ChangeLog&& log);
 
 }  // namespace cut

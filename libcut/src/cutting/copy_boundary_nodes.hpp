@@ -1,9 +1,9 @@
 /// @file
 /// Step 6, Copy Boundary Nodes (§4.6), for all render vertices: those at a boundary node or a physics node
 /// are the connected components of the angles that polygons have there, two angles being connected when they
-/// share an uncut section that ends at the node; an inner node has one for each angle. Then the render
-/// triangles of new polygons (§4.10). In: arrangements without render vertices. Out: complete arrangements
-/// and render buffers.
+/// share an uncut section that ends at the node; an inner node has one for each angle. In: arrangements
+/// without render vertices. Out: arrangements complete but for render triangles (triangulate_polygons.hpp),
+/// and the buffer of render vertices.
 #pragma once
 #include <span>
 #include <vector>

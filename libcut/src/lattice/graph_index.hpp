@@ -1,5 +1,6 @@
 /// @file
-/// Finds nodes and edges of a large planar graph by where they are (§5.1: "edges within large triangles").
+/// Finds nodes and edges of a large planar graph by where they are (§5: for triangles
+/// with "large node and edge numbers").
 /// In: nodes and edges, added and removed one by one. Out: those near a segment. Small graphs are searched
 /// one by one without it.
 #pragma once

@@ -1,5 +1,5 @@
 /// @file
-/// Lengths on a physics triangle in its tension-free state: merge distances (paper §4.2, §4.3) and the
+/// Lengths on a physics triangle in its tension-free state: merge distances (§4.2, §4.3) and the
 /// quality of triangulations are measured here. Topology never depends on it.
 #pragma once
 #include <algorithm>

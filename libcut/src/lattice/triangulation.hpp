@@ -1,5 +1,5 @@
 /// @file
-/// Triangles of one render polygon of a cut physics triangle (paper §4.9).
+/// Triangles of one render polygon of a cut physics triangle (§4.10).
 ///
 /// In: the corners of a polygon with holes, as lattice points. Out: triples of corner indices. Decisions are
 /// exact; the tension-free metric only chooses between triangulations that are all valid.

@@ -1,7 +1,7 @@
 /// @file
 /// Rules physics_nodes_are_components, render_vertices_are_components and components_agree: a flood fill over
 /// uncut sections says which corners must be one physics node, which wedges one render vertex, and which
-/// fragments hang together (§4.5, §4.6, §4.8). In: the mesh. Out: violations.
+/// fragments hang together (§4.6, §4.8, §4.10). In: the mesh. Out: violations.
 #include "validate/flood.hpp"
 #include "validate/place.hpp"
 #include "validate/rules.hpp"
