@@ -2,10 +2,11 @@
 """Prints one Markdown table of ratios from the JSON of bench_spatial.
 
 usage: bench_spatial --benchmark_repetitions=3 --benchmark_enable_random_interleaving=true \
-           --benchmark_out=spatial.json && compare.py spatial.json [more.json]
+           --benchmark_out=spatial.json && compare.py spatial.json [more.json] [--native native.json [more.json]]
 
 Each cell is the geometric mean over the data sets of (median of the peer / median of ours), above 1 where ours is faster,
-and in brackets the worst data set. The peer is the fastest of the variants named.
+and in brackets the worst data set. The peer is the fastest of the variants named. What follows --native was measured by a
+program compiled with -march=native and gets columns of its own.
 """
 import json
 import math
@@ -33,12 +34,17 @@ LINES = [  # operation, ours, peers, wanted
 
 def read(paths):
     times, memory = {}, {}
+    build = ""
     for path in paths:
+        if path == "--native":
+            build = " native"
+            continue
         with open(path, encoding="utf-8") as file:
             for run in json.load(file)["benchmarks"]:
                 if run.get("run_type") == "aggregate":
                     continue
                 operation, data, scalar, count, peer = run["run_name"].split("/")[:5]
+                scalar += build
                 times.setdefault((operation, scalar, int(count)), {}).setdefault(data, {}).setdefault(peer, []).append(
                     run["cpu_time"])
                 if "bytes_per_element" in run:
