@@ -172,6 +172,26 @@ TEST_CASE("a graph stays planar and its edges in place, whatever is drawn into i
   });
 }
 
+TEST_CASE("a large graph, in which edges are found by an index, stays planar as well") {
+  std::size_t largest = 0;
+  check_many(60, "large graphs", [&] {
+    PlanarGraph graph = empty_graph();
+    const PointSource source = random_source();
+    for (int step = 0; step < 3; ++step) {
+      for (GraphEdge& e : graph.edges) e.is_new = false;
+      std::vector<Segment> segments;
+      for (int i = 0; i < 12; ++i)
+        for (const Segment& s : random_segments(source, 10)) segments.push_back(s);
+      draw(graph, segments);
+      RC_ASSERT(fault(graph) == "");
+      for (const Segment& s : segments)
+        RC_ASSERT((chain_along(graph, s).drift < (along_a_side(s.first, s.second) ? 0.1 : 12)));
+    }
+    largest = std::max(largest, graph.edges.size());
+  });
+  CHECK(largest > 1000);
+}
+
 TEST_CASE("the crossing of two edges is their rounded common point, and both keep what they carry") {
   PlanarGraph graph;
   graph.points = {{100, 100}, {107, 105}, {100, 104}, {106, 100}};
