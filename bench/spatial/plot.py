@@ -4,7 +4,7 @@
 usage: plot.py FOLDER spatial.json [more.json]
 
 Writes FOLDER/OPERATION_SCALAR.svg for each operation that was measured with two numbers of elements or more. A point is the
-median over repetitions, then the geometric mean over the data sets that all peers of the chart have.
+median over repetitions, for uniform data.
 """
 import json
 import math
@@ -15,15 +15,14 @@ import sys
 WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 640, 360, 62, 150, 34, 44
 COLOURS = {"bbtt": "#d62728", "pcd": "#d62728"}
 OTHERS = ["#1f77b4", "#2ca02c", "#9467bd", "#8c564b", "#17becf", "#7f7f7f"]
-QUERIES = {"query_1": 2000, "query_10": 2000, "query_100": 2000, "query_loaded_1": 2000, "query_loaded_10": 2000,
-           "query_loaded_100": 2000}  # how many queries an iteration asks; nearest: 1000
 
 
 def per_item(operation, count):
+    """How many elements or queries an iteration handles; None if that depends on the data."""
     if operation.startswith("nearest"):
         return 1000
     if operation.startswith("query"):
-        return QUERIES.get(operation)
+        return None if operation.endswith("%") else 2000
     if operation == "erase":
         return count / 2
     return count / 100 if operation == "move_1%" else count
@@ -38,27 +37,13 @@ def read(paths):
                     continue
                 operation, data, scalar, count, peer = run["run_name"].split("/")[:5]
                 items = per_item(operation, int(count))
-                if items:
-                    key = (operation, scalar), peer, int(count), data
+                if items and data == "uniform":
+                    key = (operation, scalar), peer, int(count)
                     times.setdefault(key, []).append(run["cpu_time"] * 1e6 / items)  # ms to ns
     charts = {}
-    for (chart, peer, count, data), values in times.items():
-        charts.setdefault(chart, {}).setdefault(peer, {}).setdefault(count, {})[data] = statistics.median(values)
+    for (chart, peer, count), values in sorted(times.items()):
+        charts.setdefault(chart, {}).setdefault(peer, []).append((count, statistics.median(values)))
     return charts
-
-
-def lines_of(chart):
-    """Per peer the points (count, ns), over the data sets that every peer has at that count."""
-    counts = sorted({c for by_count in chart.values() for c in by_count})
-    lines = {}
-    for count in counts:
-        having = {p: by_count[count] for p, by_count in chart.items() if count in by_count}
-        common = set.intersection(*(set(d) for d in having.values()))
-        for peer, by_data in having.items():
-            if common:
-                mean = math.exp(statistics.fmean(math.log(by_data[d]) for d in common))
-                lines.setdefault(peer, []).append((count, mean))
-    return lines
 
 
 def svg(title, lines):
@@ -107,7 +92,7 @@ def main():
     folder = pathlib.Path(sys.argv[1])
     folder.mkdir(parents=True, exist_ok=True)
     for (operation, scalar), chart in sorted(read(sys.argv[2:]).items()):
-        lines = {peer: line for peer, line in lines_of(chart).items() if len(line) > 1}
+        lines = {peer: line for peer, line in chart.items() if len(line) > 1}
         if lines:
             name = f"{operation}_{scalar}".replace("%", "percent")
             title = f"{operation}, {scalar}: time per {'query' if operation.startswith(('query', 'near')) else 'element'}"
