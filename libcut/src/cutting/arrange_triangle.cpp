@@ -11,6 +11,7 @@
 #include "cutting/merge_on_cut_edges.hpp"
 #include "cutting/polygon_nodes.hpp"
 #include "cutting/work_graph.hpp"
+#include "lattice/sort_unique.hpp"
 
 namespace cut {
 namespace {
@@ -124,8 +125,7 @@ void arrange_triangle(TriangleWork& work, const std::array<std::vector<LatticePo
       work.stamps[a] = work.stamps[b] = context.this_cut;
       if (a != b) segments.push_back({std::min(a, b), std::max(a, b), line.polygon});
     }
-    std::sort(segments.begin(), segments.end());
-    segments.erase(std::unique(segments.begin(), segments.end()), segments.end());
+    lattice::sort_unique(segments);
 
     const PolygonNodes nodes = polygon_nodes(work, segments);
     std::vector<GraphEdge> new_edges;

@@ -28,7 +28,7 @@ Box box_of(const HybridMesh& mesh, std::size_t triangle) {
 }  // namespace
 
 bool BroadPhase::update(const HybridMesh& mesh, Error& error) {
-  if (state_ == mesh.state) {
+  if (knows(mesh)) {
     if (has_tree_) return true;
     const std::size_t count = mesh.buffers.triangles.size();
     std::vector<std::pair<Box, TriangleId>> boxes;

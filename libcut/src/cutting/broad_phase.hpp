@@ -17,6 +17,9 @@ namespace cut {
 
 class BroadPhase {
  public:
+  /// Whether the mesh is as the last call left it. O(1).
+  [[nodiscard]] bool knows(const HybridMesh& mesh) const { return state_ == mesh.state; }
+
   /// Finds out whether the mesh is as it was after the last call, this Cutter's own cuts left out. O(1) when
   /// it is, except O(triangles) for the first time, when the tree is built; else O(nodes).
   /// @return false, and `error`, when a position is not finite

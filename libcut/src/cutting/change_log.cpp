@@ -1,4 +1,5 @@
 #include "cutting/change_log.hpp"
+#include "lattice/sort_unique.hpp"
 
 #include <utility>
 
@@ -7,8 +8,7 @@ namespace {
 
 template <class T>
 ArrayChanges<T> entries(std::vector<std::uint32_t>& indices, const std::vector<T>& array) {
-  std::sort(indices.begin(), indices.end());
-  indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
+  lattice::sort_unique(indices);
   ArrayChanges<T> changes;
   changes.size_after = array.size();
   changes.entries.reserve(indices.size());

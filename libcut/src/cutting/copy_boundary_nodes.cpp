@@ -8,6 +8,7 @@
 
 #include "cutting/edge_state.hpp"
 #include "lattice/components.hpp"
+#include "lattice/sort_unique.hpp"
 
 namespace cut {
 namespace {
@@ -45,8 +46,8 @@ class VertexCopier {
       for (const Angle& angle : angles(work.ancestor))
         if (angle.node >= first_inner) assign({&angle, 1});
     }
-    sort_unique(physics_nodes);
-    sort_unique(boundary_nodes);
+    lattice::sort_unique(physics_nodes);
+    lattice::sort_unique(boundary_nodes);
     std::vector<Angle> group;
     for (const auto& [edge, t] : boundary_nodes) {
       group.clear();
@@ -64,12 +65,6 @@ class VertexCopier {
   }
 
  private:
-  template <class T>
-  static void sort_unique(std::vector<T>& list) {
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-  }
-
   RenderVertexId& vertex(const Angle& a) {
     const Index index = mesh_.arrangement_of[a.ancestor.index()];
     return index == HybridMesh::none ? mesh_.buffers.render_triangles[a.ancestor.index()].vertices[a.corner]
@@ -91,7 +86,7 @@ class VertexCopier {
         old.push_back({work.before.nodes[c.node].point, polygon.triangle, c.vertex});
         released_.push_back(c.vertex);
       }
-    sort_unique(old);
+    lattice::sort_unique(old);
     Arrangement& now = mesh_.arrangements[mesh_.arrangement_of[work.ancestor.index()]];
     for (RenderPolygon& polygon : now.polygons) {
       const TriangleId fragment = source_of(polygon.triangle);
@@ -261,7 +256,7 @@ class VertexCopier {
   }
 
   void free_unclaimed() {
-    sort_unique(released_);
+    lattice::sort_unique(released_);
     for (const RenderVertexId id : released_) {
       if (claimed_.contains(id.value)) continue;
       mesh_.buffers.render_vertices[id.index()] = RenderVertex{};

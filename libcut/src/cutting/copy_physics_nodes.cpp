@@ -6,6 +6,7 @@
 
 #include "cutting/edge_state.hpp"
 #include "lattice/components.hpp"
+#include "lattice/sort_unique.hpp"
 
 namespace cut {
 namespace {
@@ -135,8 +136,7 @@ void update_springs(HybridMesh& mesh, const std::vector<AncestorNodeId>& nodes, 
       for (const std::size_t corner = mesh.ancestors.local_node(t, n);
            const std::size_t i : {corner, last_corner(corner)})
         edges.push_back(mesh.ancestors.triangles[t.index()].edges[i]);
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  lattice::sort_unique(edges);
 
   using Pair = std::array<NodeId, 2>;
   auto& springs = mesh.buffers.springs;
@@ -154,8 +154,7 @@ void update_springs(HybridMesh& mesh, const std::vector<AncestorNodeId>& nodes, 
         wanted.push_back(pair);
       }
     }
-    std::sort(wanted.begin(), wanted.end());
-    wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+    lattice::sort_unique(wanted);
     if (wanted.size() == 1 && mesh.edge_state(e) == nullptr && springs[e.index()].nodes == wanted[0])
       continue;
     EdgeState& state = edge_state_for_writing(mesh, e);

@@ -22,6 +22,7 @@
 #include "cutting/state.hpp"
 #include "cutting/triangulate_polygons.hpp"
 #include "cutting/weld_slivers.hpp"
+#include "lattice/sort_unique.hpp"
 #include "mesh/state.hpp"
 
 namespace cut {
@@ -32,7 +33,6 @@ struct Cutter::Memory {
   std::uint32_t previous_cut = 0;
   ClusterCentres centres;
   std::vector<DetectedLine> lines;  ///< of the previous call
-  std::uint64_t state = 0;          ///< of the mesh after the previous call
   StepTimings timings;
 };
 
@@ -133,6 +133,7 @@ Result<Changes> Cutter::cut(HybridMesh& mesh, const TriangleMesh& cutter) {
   Stopwatch watch;
   Error error{};
   if (!check_cutter(cutter, memory_->distances, error)) return error;
+  const bool as_left = memory_->broad_phase.knows(mesh);
   if (!memory_->broad_phase.update(mesh, error)) return error;
   watch.lap(timings.broad_phase);
 
@@ -146,9 +147,8 @@ Result<Changes> Cutter::cut(HybridMesh& mesh, const TriangleMesh& cutter) {
   nothing.version_before = nothing.version_after = mesh.topology_version;
   // The same cut again does nothing. Left to the steps below, a line that merging has led aside would be
   // clipped by its own cut. That it was called is forgotten, so that the nodes of the cut stay recent.
-  if (!lines.empty() && lines == memory_->lines && mesh.state == memory_->state) return nothing;
+  if (!lines.empty() && lines == memory_->lines && as_left) return nothing;
   memory_->lines = std::move(lines);
-  memory_->state = mesh.state;
   ++mesh.cut_count;
   memory_->previous_cut = context.this_cut;
   if (works.empty()) {
@@ -177,9 +177,7 @@ Result<Changes> Cutter::cut(HybridMesh& mesh, const TriangleMesh& cutter) {
   }
   std::sort(next_centres.on_edges.begin(), next_centres.on_edges.end());
   std::sort(next_centres.inside.begin(), next_centres.inside.end());
-  std::sort(next_centres.begun.begin(), next_centres.begun.end());
-  next_centres.begun.erase(std::unique(next_centres.begun.begin(), next_centres.begun.end()),
-                           next_centres.begun.end());
+  lattice::sort_unique(next_centres.begun);
   memory_->centres = std::move(next_centres);
   ChangeLog log;
   std::vector<AncestorNodeId> touched;  // physics nodes whose copies may have come apart
@@ -199,8 +197,7 @@ Result<Changes> Cutter::cut(HybridMesh& mesh, const TriangleMesh& cutter) {
               works.end());
   if (works.empty()) return nothing;
 
-  std::sort(touched.begin(), touched.end());
-  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+  lattice::sort_unique(touched);
   for (const AncestorNodeId n : touched) copy_physics_node(mesh, n, log);
   update_springs(mesh, touched, log);
   copy_boundary_nodes(mesh, works, log);
@@ -208,7 +205,7 @@ Result<Changes> Cutter::cut(HybridMesh& mesh, const TriangleMesh& cutter) {
 
   triangulate_polygons(mesh, works, log);
   update_vertex_nodes(mesh, log);
-  mesh.state = memory_->state = new_state();
+  mesh.state = new_state();
   memory_->broad_phase.add(mesh, log.triangle_copies);
   Changes changes = publish(mesh, std::move(log));
   changes.version_before = mesh.topology_version;

@@ -8,6 +8,7 @@
 #include "cutting/clip_to_polygon.hpp"
 #include "cutting/intersect_triangles.hpp"
 #include "cutting/join_collinear_lines.hpp"
+#include "lattice/sort_unique.hpp"
 
 namespace cut {
 namespace {
@@ -107,8 +108,7 @@ Detection detect_cutting_lines(const HybridMesh& mesh, const TriangleMesh& cutte
     if (!work.lines.empty()) detection.works.push_back(std::move(work));
   }
   auto& found = detection.lines;
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
+  lattice::sort_unique(found);
   return detection;
 }
 

@@ -4,8 +4,9 @@
 #include <cmath>
 #include <tuple>
 
-#include "cut/triangle_mesh.hpp"
 #include "lattice/orientation.hpp"
+#include "lattice/sort_unique.hpp"
+#include "mesh/area_vector.hpp"
 #include "mesh/vector3.hpp"
 
 namespace cut {
@@ -30,9 +31,10 @@ std::array<Vector3, 3> inward_vectors(const std::array<Vector3, 3>& corners, con
 
 /// @return false when the triangle has no area to speak of
 bool unit_normal(const std::array<Vector3, 3>& corners, Vector3& normal) {
-  if (!has_area(corners[0], corners[1], corners[2])) return false;
-  const Vector3 n = cross(corners[1] - corners[0], corners[2] - corners[0]);
-  normal = n / length(n);
+  const Vector3 across = area_vector(corners[0], corners[1], corners[2]);
+  const double area = length(across);
+  if (!(area > 0)) return false;
+  normal = across / area;
   return true;
 }
 
@@ -77,8 +79,7 @@ struct PlaneCoordinates {
 
 /// Orders points along the line through the two that are furthest apart.
 void sort_along_line(std::vector<LatticePoint>& points) {
-  std::sort(points.begin(), points.end());
-  points.erase(std::unique(points.begin(), points.end()), points.end());
+  lattice::sort_unique(points);
   if (points.size() < 3) return;
   std::int64_t furthest = -1;
   LatticePoint from;

@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "lattice/orientation.hpp"
+#include "lattice/sort_unique.hpp"
 
 namespace cut {
 namespace {
@@ -75,8 +76,7 @@ bool free_point(const LineEnd& end) {
 void join_collinear_lines(std::vector<CuttingLine>& lines) {
   for (CuttingLine& l : lines)
     if (l.b < l.a) std::swap(l.a, l.b);
-  std::sort(lines.begin(), lines.end());
-  lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
+  lattice::sort_unique(lines);
   if (lines.size() < 2) return;
 
   std::vector<Ending> endings;
@@ -143,8 +143,7 @@ void join_collinear_lines(std::vector<CuttingLine>& lines) {
   // it however it is divided.
   for (Index i = 0; i < number; ++i)
     if (done[i] == 0) walk(i, 1);
-  std::sort(joined.begin(), joined.end());
-  joined.erase(std::unique(joined.begin(), joined.end()), joined.end());
+  lattice::sort_unique(joined);
   lines = std::move(joined);
 }
 

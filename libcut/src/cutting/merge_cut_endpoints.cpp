@@ -94,13 +94,9 @@ class EndpointMerger {
       consider(at_node(n), point(n), context_.recent(work_.before.nodes[n].stamp), reach(n));
     for (const ClusterCentres::Begun& b : context_.centres.begun_in(work_.ancestor))
       consider({b.point, LineEnd::On::nothing, 0}, b.point, true, work_.distances.cut);
-    const auto& centres = context_.centres.inside;
-    for (auto c =
-             std::lower_bound(centres.begin(), centres.end(), ClusterCentres::Inside{work_.ancestor, {}, {}},
-                              [](const auto& l, const auto& r) { return l.ancestor < r.ancestor; });
-         c != centres.end() && c->ancestor == work_.ancestor; ++c)
+    for (const ClusterCentres::Inside& c : context_.centres.inside_of(work_.ancestor))
       for (const std::uint32_t n : nodes_.of(polygon))
-        if (point(n) == c->node) consider(at_node(n), c->detected, true, same_place(work_.distances));
+        if (point(n) == c.node) consider(at_node(n), c.detected, true, same_place(work_.distances));
     return best;
   }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "lattice/orientation.hpp"
+#include "lattice/sort_unique.hpp"
 
 namespace cut {
 namespace {
@@ -53,8 +54,7 @@ void merge_on_cut_edges(TriangleWork& work) {
       points.push_back({end.index, lattice::dot(end.point - from, to - from), end.point});
     }
   if (points.empty()) return;
-  std::sort(points.begin(), points.end());
-  points.erase(std::unique(points.begin(), points.end()), points.end());
+  lattice::sort_unique(points);
 
   std::vector<std::pair<Index, std::vector<LatticePoint>>> divided;  // by edge
   for (std::size_t i = 0; i < points.size();) {

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "cutting/edge_state.hpp"
+#include "lattice/sort_unique.hpp"
 
 namespace cut {
 namespace {
@@ -41,10 +42,8 @@ std::vector<Target> targets_of(const HybridMesh& mesh, AncestorEdgeId edge, cons
   add_node(lattice_size, mesh.node_stamps[ends[1].index()]);
   if (const EdgeState* state = mesh.edge_state(edge))
     for (const BoundaryNode& n : state->nodes) add_node(n.t, n.stamp);
-  const auto& centres = context.centres.on_edges;
-  for (auto c = std::lower_bound(centres.begin(), centres.end(), ClusterCentres::OnEdge{edge, 0, 0});
-       c != centres.end() && c->edge == edge; ++c)
-    targets.push_back({c->detected, true, c->node, same_place(distances)});
+  for (const ClusterCentres::OnEdge& c : context.centres.on_edge(edge))
+    targets.push_back({c.detected, true, c.node, same_place(distances)});
   return targets;
 }
 
@@ -145,8 +144,7 @@ void merge_on_physics_edges(HybridMesh& mesh, std::vector<TriangleWork>& works, 
   for (const AncestorEdgeId edge : changed)
     for (const AncestorId t : ancestors.edges[edge.index()].triangles)
       if (t.valid()) beside.push_back(t);
-  std::sort(beside.begin(), beside.end());
-  beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
+  lattice::sort_unique(beside);
   const std::size_t with_lines = works.size();
   std::size_t next = 0;
   for (const AncestorId t : beside) {

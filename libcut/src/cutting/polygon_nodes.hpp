@@ -9,6 +9,7 @@
 
 #include "lattice/orientation.hpp"
 #include "lattice/planar_graph.hpp"
+#include "lattice/sort_unique.hpp"
 
 namespace cut {
 
@@ -29,8 +30,7 @@ class PolygonNodes {
   void add(std::uint32_t polygon, std::uint32_t node) { nodes_[polygon].push_back(node); }
   void finish() {
     for (auto& list : nodes_) {
-      std::sort(list.begin(), list.end());
-      list.erase(std::unique(list.begin(), list.end()), list.end());
+      lattice::sort_unique(list);
     }
   }
   [[nodiscard]] std::span<const std::uint32_t> of(std::uint32_t polygon) const { return nodes_[polygon]; }

@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "cut/arrangement.hpp"
@@ -98,13 +97,14 @@ struct ClusterCentres {
   std::vector<Inside> inside;    ///< sorted
   std::vector<Begun> begun;      ///< sorted, each once
 
-  [[nodiscard]] std::span<const Begun> begun_in(AncestorId ancestor) const {
-    const auto first =
-        std::lower_bound(begun.begin(), begun.end(), Begun{ancestor, {}},
-                         [](const Begun& l, const Begun& r) { return l.ancestor < r.ancestor; });
-    auto last = first;
-    while (last != begun.end() && last->ancestor == ancestor) ++last;
-    return {first, last};
+  [[nodiscard]] auto inside_of(AncestorId ancestor) const {
+    return std::ranges::equal_range(inside, ancestor, {}, &Inside::ancestor);
+  }
+  [[nodiscard]] auto begun_in(AncestorId ancestor) const {
+    return std::ranges::equal_range(begun, ancestor, {}, &Begun::ancestor);
+  }
+  [[nodiscard]] auto on_edge(AncestorEdgeId edge) const {
+    return std::ranges::equal_range(on_edges, edge, {}, &OnEdge::edge);
   }
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "lattice/sort_unique.hpp"
 #include "lattice/triangulation.hpp"
 
 namespace cut {
@@ -50,8 +51,7 @@ void triangulate_polygons(HybridMesh& mesh, std::span<const TriangleWork> works,
 }
 
 void update_vertex_nodes(HybridMesh& mesh, ChangeLog& log) {
-  std::sort(log.triangles.begin(), log.triangles.end());
-  log.triangles.erase(std::unique(log.triangles.begin(), log.triangles.end()), log.triangles.end());
+  lattice::sort_unique(log.triangles);
   const auto update = [&](RenderVertexId v, TriangleId triangle) {
     RenderVertex& vertex = mesh.buffers.render_vertices[v.index()];
     const auto& nodes = mesh.buffers.triangles[triangle.index()].nodes;
@@ -69,8 +69,7 @@ void update_vertex_nodes(HybridMesh& mesh, ChangeLog& log) {
       for (const RenderVertexId v : mesh.buffers.render_triangles[index].vertices)
         update(v, TriangleId{index});
   }
-  std::sort(cut_ancestors.begin(), cut_ancestors.end());
-  cut_ancestors.erase(std::unique(cut_ancestors.begin(), cut_ancestors.end()), cut_ancestors.end());
+  lattice::sort_unique(cut_ancestors);
   for (const AncestorId ancestor : cut_ancestors)
     for (const RenderPolygon& polygon : mesh.arrangement(ancestor)->polygons)
       if (std::binary_search(log.triangles.begin(), log.triangles.end(), polygon.triangle.value))

@@ -4,17 +4,9 @@
 #include <algorithm>
 
 #include "cut/simulation.hpp"
+#include "lattice/sort_unique.hpp"
 
 namespace cut {
-namespace {
-
-template <class T>
-void sort_unique(std::vector<T>& values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-}
-
-}  // namespace
 
 std::optional<Error> Simulation::apply(const Changes& changes, const HybridMesh& mesh) {
   if (changes.empty()) return std::nullopt;
@@ -62,7 +54,7 @@ void Simulation::take_over_fragments(const Changes& changes, const HybridMesh& m
   std::vector<AncestorId> touched;
   for (const auto& entry : changes.triangles.entries)
     if (entry.value.ancestor.valid()) touched.push_back(entry.value.ancestor);
-  sort_unique(touched);
+  lattice::sort_unique(touched);
   std::vector<AncestorNodeId> nodes;
   std::vector<AncestorEdgeId> edges;
   for (const auto& entry : changes.springs.entries)
@@ -72,8 +64,8 @@ void Simulation::take_over_fragments(const Changes& changes, const HybridMesh& m
     nodes.insert(nodes.end(), ancestor.nodes.begin(), ancestor.nodes.end());
     edges.insert(edges.end(), ancestor.edges.begin(), ancestor.edges.end());
   }
-  sort_unique(nodes);
-  sort_unique(edges);
+  lattice::sort_unique(nodes);
+  lattice::sort_unique(edges);
   for (const AncestorNodeId node : nodes) update_copies(mesh, node);
   for (const AncestorEdgeId edge : edges) update_springs(mesh, edge);
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cut/simulation.hpp"
+#include "lattice/sort_unique.hpp"
 #include "lattice/weights.hpp"
 #include "simulation/rest_area.hpp"
 
@@ -52,8 +53,7 @@ void Simulation::divide_weights(const Changes& changes, const HybridMesh& mesh, 
     sources[copy.triangle.index() - first_new] = source_of(copy.source);
     ancestors.push_back(mesh.buffers.triangles[copy.triangle.index()].ancestor);
   }
-  std::sort(ancestors.begin(), ancestors.end());
-  ancestors.erase(std::unique(ancestors.begin(), ancestors.end()), ancestors.end());
+  lattice::sort_unique(ancestors);
 
   struct Part {
     TriangleId source;
