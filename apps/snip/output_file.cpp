@@ -166,4 +166,12 @@ Result<> OutputFile::publish() {
   return {};
 }
 
+Result<OutputFile> completed_file(const fs::path& path, std::string_view bytes) {
+  Result<OutputFile> file = OutputFile::create(path);
+  if (!file) return file;
+  if (const Result<> written = file->write(bytes); !written) return written.error();
+  if (const Result<> completed = file->complete(); !completed) return completed.error();
+  return file;
+}
+
 }  // namespace snip

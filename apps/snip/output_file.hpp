@@ -41,4 +41,7 @@ class OutputFile {
   std::unique_ptr<State> state_;
 };
 
+/// A file with all its bytes on the disk, but not under its name yet.
+Result<OutputFile> completed_file(const std::filesystem::path& path, std::string_view bytes);
+
 }  // namespace snip

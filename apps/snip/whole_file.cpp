@@ -43,9 +43,8 @@ Result<std::string> read_whole_file(const fs::path& path) {
 }
 
 Result<> write_whole_file(const fs::path& path, std::string_view bytes) {
-  Result<OutputFile> file = OutputFile::create(path);
+  Result<OutputFile> file = completed_file(path, bytes);
   if (!file) return file.error();
-  if (const Result<> written = file->write(bytes); !written) return written;
   return file->publish();
 }
 

@@ -11,8 +11,6 @@
 #include <string>
 
 #include "cut/validate.hpp"
-#include "snip/clean.hpp"
-#include "snip/command_line.hpp"
 #include "snip/commands/checks.hpp"
 #include "snip/commands/commands.hpp"
 #include "snip/commands/outputs.hpp"
@@ -149,12 +147,7 @@ void add_cut_command(CLI::App& app, int& exit_code) {
       ->check(positive_number());
   command->add_option("--stats", options->out.stats, "Write pieces, areas, counts and times as JSON")
       ->check(a_name());
-  command->callback([options, &exit_code] {
-    if (const Result<> result = run(*options); !result) {
-      report_error(result.error());
-      exit_code = exit_bad_input;
-    }
-  });
+  command->callback([options, &exit_code] { conclude(run(*options), exit_code); });
 }
 
 }  // namespace snip

@@ -21,14 +21,6 @@ Result<MeshFormat> check(const OutputPaths& paths, std::initializer_list<std::fi
   return format;
 }
 
-Result<OutputFile> completed_file(const std::filesystem::path& path, std::string_view bytes) {
-  Result<OutputFile> file = OutputFile::create(path);
-  if (!file) return file;
-  if (const Result<> written = file->write(bytes); !written) return written.error();
-  if (const Result<> completed = file->complete(); !completed) return completed.error();
-  return file;
-}
-
 Result<> publish(OutputFile& mesh, const std::filesystem::path& stats, const Json& json) {
   Result<OutputFile> file = completed_file(stats, json.dump(2) + "\n");
   if (!file) return file.error();

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <initializer_list>
 #include <optional>
-#include <string_view>
 
 #include "snip/mesh_file/mesh_file.hpp"
 #include "snip/output_file.hpp"
@@ -22,9 +21,6 @@ struct OutputPaths {
 /// mesh or one of the inputs.
 /// @return the format of the mesh
 Result<MeshFormat> check(const OutputPaths& paths, std::initializer_list<std::filesystem::path> inputs);
-
-/// A file with all its bytes on the disk, but not under its name yet.
-Result<OutputFile> completed_file(const std::filesystem::path& path, std::string_view bytes);
 
 /// Writes the statistics, and puts both files in place when that went well.
 Result<> publish(OutputFile& mesh, const std::filesystem::path& stats, const Json& json);

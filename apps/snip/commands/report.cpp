@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <string>
 
-#include "snip/clean.hpp"
+#include "snip/command_line.hpp"
 #include "snip/console.hpp"
 #include "snip/mesh_file/mesh_file.hpp"
 
@@ -26,13 +26,24 @@ void report_error(const Error& error) { report("error", error.message); }
 
 void report_warning(std::string_view message) { report("warning", message); }
 
+void conclude(const Result<>& result, int& exit_code) {
+  if (result) return;
+  report_error(result.error());
+  exit_code = exit_bad_input;
+}
+
+Result<CleanReport> clean_and_warn(Mesh& mesh, const std::string& name) {
+  Result<CleanReport> cleaned = clean(mesh, name);
+  if (!cleaned) return cleaned;
+  const std::string dropped = describe(*cleaned, name);
+  if (!dropped.empty()) report_warning(dropped);
+  return cleaned;
+}
+
 Result<Mesh> read_clean_mesh(const std::filesystem::path& path) {
   Result<Mesh> mesh = read_mesh(path);
   if (!mesh) return mesh;
-  const Result<CleanReport> cleaned = clean(*mesh, path.string());
-  if (!cleaned) return cleaned.error();
-  const std::string dropped = describe(*cleaned, path.string());
-  if (!dropped.empty()) report_warning(dropped);
+  if (const auto cleaned = clean_and_warn(*mesh, path.string()); !cleaned) return cleaned.error();
   return mesh;
 }
 

@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "snip/command_line.hpp"
 #include "snip/commands/checks.hpp"
 #include "snip/commands/commands.hpp"
 #include "snip/commands/report.hpp"
@@ -23,12 +22,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
   command->add_option("--frames", options->frames, "Number of frames, in place of the scene's own")
       ->check(CLI::Range(std::size_t{1}, most_frames));
   command->add_flag("--no-images", options->no_images, "Write no pictures");
-  command->callback([options, &exit_code] {
-    if (const Result<> result = run_scene(*options); !result) {
-      report_error(result.error());
-      exit_code = exit_bad_input;
-    }
-  });
+  command->callback([options, &exit_code] { conclude(run_scene(*options), exit_code); });
 }
 
 }  // namespace snip

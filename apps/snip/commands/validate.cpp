@@ -8,8 +8,6 @@
 #include <string>
 #include <string_view>
 
-#include "snip/clean.hpp"
-#include "snip/command_line.hpp"
 #include "snip/commands/checks.hpp"
 #include "snip/commands/commands.hpp"
 #include "snip/commands/report.hpp"
@@ -52,12 +50,7 @@ void add_validate_command(CLI::App& app, int& exit_code) {
       app.add_subcommand("validate", "Tell whether a mesh can be cut, and what it consists of");
   auto mesh = std::make_shared<std::string>();
   command->add_option("MESH", *mesh, "Mesh to look at (.obj, .ply, .stl, .off)")->required()->check(a_name());
-  command->callback([mesh, &exit_code] {
-    if (const Result<> result = run(*mesh); !result) {
-      report_error(result.error());
-      exit_code = exit_bad_input;
-    }
-  });
+  command->callback([mesh, &exit_code] { conclude(run(*mesh), exit_code); });
 }
 
 }  // namespace snip

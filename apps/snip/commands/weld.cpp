@@ -4,8 +4,6 @@
 #include <optional>
 #include <string>
 
-#include "snip/clean.hpp"
-#include "snip/command_line.hpp"
 #include "snip/commands/checks.hpp"
 #include "snip/commands/commands.hpp"
 #include "snip/commands/outputs.hpp"
@@ -34,10 +32,8 @@ Result<> run(const WeldOptions& options) {
   const Result<std::size_t> merged = weld(*mesh, options.distance, options.mesh);
   if (!merged) return merged.error();
   stopwatch.lap("weld");
-  const Result<CleanReport> cleaned = clean(*mesh, options.mesh);
+  const Result<CleanReport> cleaned = clean_and_warn(*mesh, options.mesh);
   if (!cleaned) return cleaned.error();
-  const std::string dropped = describe(*cleaned, options.mesh);
-  if (!dropped.empty()) report_warning(dropped);
   stopwatch.lap("clean");
   const Pieces pieces = find_pieces(mesh->positions, mesh->triangles);
   const std::vector<std::size_t> piece_begin = sort_by_piece(*mesh, pieces);
@@ -69,12 +65,7 @@ void add_weld_command(CLI::App& app, int& exit_code) {
       ->required()
       ->check(a_name());
   command->add_option("--stats", options->out.stats, "Write what was done as JSON")->check(a_name());
-  command->callback([options, &exit_code] {
-    if (const Result<> result = run(*options); !result) {
-      report_error(result.error());
-      exit_code = exit_bad_input;
-    }
-  });
+  command->callback([options, &exit_code] { conclude(run(*options), exit_code); });
 }
 
 }  // namespace snip
