@@ -17,6 +17,7 @@
 #include "cutting/broad_phase.hpp"
 #include "cutting/detect_cutting_lines.hpp"
 #include "lattice/check_many.hpp"
+#include "places.hpp"
 #include "random_cuts.hpp"
 
 namespace {
@@ -54,19 +55,6 @@ double distance(const Vector3& p, const std::vector<Segment>& segments) {
   double best = std::numeric_limits<double>::infinity();
   for (const auto& [a, b] : segments) best = std::min(best, distance_to_segment(p, a, b));
   return best;
-}
-
-Vector3 interpolated(const std::array<Vector3, 3>& corners, cut::LatticePoint point) {
-  Vector3 p = Vector3::Zero();
-  for (std::size_t k = 0; k < 3; ++k) p += corners[k] * (static_cast<double>(point[k]) / cut::lattice_size);
-  return p;
-}
-
-std::array<Vector3, 3> rest_corners(const cut::HybridMesh& mesh, cut::AncestorId t) {
-  std::array<Vector3, 3> corners;
-  for (std::size_t k = 0; k < 3; ++k)
-    corners[k] = mesh.ancestors.rest_positions[mesh.ancestors.triangles[t.index()].nodes[k].index()];
-  return corners;
 }
 
 /// Where the cutter meets the cloth, on the tension-free cloth: nothing merged yet. @return what is wrong

@@ -10,6 +10,7 @@
 
 #include "cut/pieces.hpp"
 #include "cut_and_check.hpp"
+#include "places.hpp"
 #include "random_cuts.hpp"
 
 namespace {
@@ -29,13 +30,8 @@ double cut_length(const cut::HybridMesh& mesh) {
   for (std::size_t t = 0; t < mesh.ancestors.triangles.size(); ++t) {
     const cut::Arrangement* arrangement = mesh.arrangement(cut::AncestorId{t});
     if (arrangement == nullptr) continue;
-    const auto& corners = mesh.ancestors.triangles[t].nodes;
-    const auto place = [&](std::uint32_t node) {
-      Vector3 p = Vector3::Zero();
-      for (std::size_t k = 0; k < 3; ++k)
-        p += mesh.ancestors.rest_positions[corners[k].index()] * (arrangement->nodes[node].point[k] / 0x1p25);
-      return p;
-    };
+    const auto rest = rest_corners(mesh, cut::AncestorId{t});
+    const auto place = [&](std::uint32_t node) { return interpolated(rest, arrangement->nodes[node].point); };
     for (const cut::CutEdge& e : arrangement->edges) sum += (place(e.to) - place(e.from)).norm();
   }
   for (std::size_t e = 0; e < mesh.ancestors.edges.size(); ++e) {

@@ -6,6 +6,7 @@
 
 #include "cut/pieces.hpp"
 #include "cut_and_check.hpp"
+#include "places.hpp"
 #include "scenes/cloths.hpp"
 #include "scenes/cutters.hpp"
 #include "scenes/surfaces.hpp"
@@ -122,9 +123,7 @@ TEST_CASE("a line that crosses an old cut with close nodes does not climb along 
       const auto index = static_cast<std::size_t>(&a - s.mesh.arrangements.data());
       for (std::size_t t = 0; t < s.mesh.arrangement_of.size(); ++t)
         if (s.mesh.arrangement_of[t] == index)
-          for (std::size_t k = 0; k < 3; ++k)
-            p += s.mesh.ancestors.rest_positions[s.mesh.ancestors.triangles[t].nodes[k].index()] *
-                 (static_cast<double>(n.point[k]) / cut::lattice_size);
+          p = interpolated(rest_corners(s.mesh, cut::AncestorId{t}), n.point);
       const Vector3 off = (p - from) - along * along.dot(p - from);
       CHECK(off.norm() <= 3.01 * edge);
     }
