@@ -21,6 +21,7 @@ SourceTree sound_tree() {
       {"libspatial/include/spatial/box.hpp", "#include <array>\n"},
       {"libspatial/include/spatial/adapt/eigen.hpp", "#include <Eigen/Core>\n#include \"spatial/box.hpp\"\n"},
       {"libcut/include/cut/ids.hpp", "#include <cstdint>\n"},
+      {"libcut/include/cut/adapt/tbb.hpp", "#include <oneapi/tbb/parallel_for.h>\n"},
       {"libcut/include/cut/hybrid_mesh.hpp", "#include <Eigen/Core>\n#include \"cut/ids.hpp\"\n"},
       {"libcut/include/cut/changes.hpp", "#include \"cut/hybrid_mesh.hpp\"\n"},
       {"libcut/include/cut/validate.hpp", "#include \"cut/hybrid_mesh.hpp\"\n"},
@@ -65,6 +66,7 @@ TEST_CASE("planted violations of the layers are found") {
   plant("libcut/src/cutting/detect.cpp", "cut/simulation.hpp", "cutting does not see simulation");
   plant("libspatial/include/spatial/box.hpp", "cut/ids.hpp", "spatial does not see base");
   plant("libspatial/include/spatial/box.hpp", "spatial/adapt/eigen.hpp", "nothing else does");
+  plant("libcut/src/cutting/detect.cpp", "cut/adapt/tbb.hpp", "nothing else does");
   plant("libcut/src/cutting/detect.cpp", "scenes/cloths.hpp", "the libraries know nothing of");
 }
 

@@ -19,7 +19,7 @@ struct Layer {
 /// A new public header gets its place here.
 const std::vector<Layer> layers{
     {"spatial", {}, {}},
-    {"base", {"spatial"}, {"error", "ids", "triangle_mesh"}},
+    {"base", {"spatial"}, {"error", "executor", "ids", "tbb", "threads", "triangle_mesh"}},
     {"lattice", {"spatial", "base"}, {"lattice_point"}},
     {"mesh",
      {"spatial", "base", "lattice"},
@@ -90,6 +90,7 @@ bool may_use_external(std::string_view path, std::string_view name) {
   if (name.ends_with("intrin.h")) return true;
   if (path.starts_with("libspatial/include/spatial/adapt/"))
     return name.starts_with("Eigen/") || name.starts_with("boost/geometry");
+  if (path.starts_with("libcut/include/cut/adapt/")) return name.starts_with("oneapi/tbb/");
   return path.starts_with("libcut/") && name.starts_with("Eigen/");
 }
 
@@ -105,7 +106,8 @@ std::string broken_rule(const std::string& path, const Include& include) {
   }
   if (in_library(path)) {
     if (!in_library(target)) return "the libraries know nothing of programs, tests and benchmarks";
-    if (path.starts_with("libspatial/") && target.starts_with("libspatial/include/spatial/adapt/"))
+    if (target.starts_with("libspatial/include/spatial/adapt/") ||
+        target.starts_with("libcut/include/cut/adapt/"))
       return "the adapters are for users to include, nothing else does";
     const std::string_view from = layer_of(path);
     const std::string_view to = layer_of(target);

@@ -1,0 +1,86 @@
+/// @file
+/// An Executor over threads of its own, for programs that have no scheduler. Nothing else includes this.
+#pragma once
+#include <atomic>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "../executor.hpp"
+
+namespace cut {
+
+/// Threads that take turns of one loop after the other. The thread that calls takes turns as well, so a pool
+/// of n has n − 1 threads. One loop at a time: to be used from one thread, and not from within a turn.
+class ThreadPool {
+ public:
+  explicit ThreadPool(std::size_t threads) {
+    for (std::size_t i = 1; i < threads; ++i) helpers_.emplace_back([this] { help(); });
+  }
+  ~ThreadPool() {
+    {
+      const std::scoped_lock lock(mutex_);
+      turn_ = nullptr;
+      ++loops_;
+    }
+    begin_.notify_all();
+    for (std::thread& helper : helpers_) helper.join();
+  }
+  ThreadPool(const ThreadPool&) = delete;
+  ThreadPool& operator=(const ThreadPool&) = delete;
+
+  void run(std::size_t count, const Executor::Turn& turn) {
+    {
+      const std::scoped_lock lock(mutex_);
+      turn_ = &turn;
+      count_ = count;
+      next_ = 0;
+      at_work_ = helpers_.size();
+      ++loops_;
+    }
+    begin_.notify_all();
+    take_turns();
+    // The others are about to end, too.
+    while (at_work_ != 0) std::this_thread::yield();
+  }
+
+ private:
+  void take_turns() {
+    for (std::size_t i = next_++; i < count_; i = next_++) (*turn_)(i);
+  }
+
+  void help() {
+    for (std::size_t done = 0;;) {
+      // Loops often follow each other closely, and waking up takes longer than many a loop.
+      for (int i = 0; i < patience && loops_ == done; ++i) std::this_thread::yield();
+      {
+        std::unique_lock lock(mutex_);
+        begin_.wait(lock, [&] { return loops_ != done; });
+        done = loops_;
+        if (turn_ == nullptr) return;
+      }
+      take_turns();
+      --at_work_;
+    }
+  }
+
+  static constexpr int patience = 200;
+  std::mutex mutex_;
+  std::condition_variable begin_;
+  std::atomic<std::size_t> loops_ = 0;  ///< number of the loop, so that a helper takes part in it once
+  std::atomic<std::size_t> next_ = 0;
+  std::atomic<std::size_t> at_work_ = 0;  ///< helpers that have not finished this loop
+  const Executor::Turn* turn_ = nullptr;  ///< none: the pool ends
+  std::size_t count_ = 0;
+  std::vector<std::thread> helpers_;
+};
+
+/// `threads` threads, the calling one included; they live as long as the Executor and its copies.
+[[nodiscard]] inline Executor thread_executor(std::size_t threads) {
+  return Executor([pool = std::make_shared<ThreadPool>(threads)](
+                      std::size_t count, const Executor::Turn& turn) { pool->run(count, turn); });
+}
+
+}  // namespace cut
