@@ -6,6 +6,7 @@
 
 #include "cut/changes.hpp"
 #include "cut/error.hpp"
+#include "cut/executor.hpp"
 #include "cut/hybrid_mesh.hpp"
 #include "cut/merge_distances.hpp"
 #include "cut/triangle_mesh.hpp"
@@ -27,6 +28,9 @@ struct StepTimings {
 /// for each blade.
 class Cutter {
  public:
+  /// Runs what triangles are cut by themselves. Results are the same to the bit whatever it does.
+  Executor executor;
+
   /// @param distances as returned by `checked` or `default_merge_distances`
   explicit Cutter(const MergeDistances& distances);
   Cutter(Cutter&&) noexcept;

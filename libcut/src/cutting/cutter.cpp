@@ -101,6 +101,19 @@ void keep_stamps(HybridMesh& mesh, const TriangleWork& work, const CutContext& c
     if (work.stamps[k] == context.this_cut) stored.nodes[k].stamp = context.this_cut;
 }
 
+/// Steps 3, 4, 5, 7 and 9 on one triangle: reads what it shares with others, and writes to its own work only.
+DisjointPolygons arrange(const HybridMesh& mesh, TriangleWork& work, const CutContext& context) {
+  std::array<std::vector<LatticePoint>, 3> boundary;
+  for (std::size_t i = 0; i < 3; ++i) boundary[i] = boundary_points(mesh, work.ancestor, i);
+  arrange_triangle(work, boundary, context);
+  // A work whose only change is a cut along one of its sides needs its polygons, too.
+  DisjointPolygons polygons = weld_slivers(mesh, work);
+  if (keeps_all_fragments(work, polygons)) return polygons;
+  work.lines.clear();
+  arrange_triangle(work, boundary, context);
+  return weld_slivers(mesh, work);
+}
+
 /// Notes where the ends of a work's lines that were not on a side were detected, and where they went; and
 /// where lines have vanished without a node.
 void remember_centres(const TriangleWork& work, const Arrangement& now, ClusterCentres& centres) {
@@ -140,7 +153,7 @@ Result<Changes> Cutter::cut(HybridMesh& mesh, const TriangleMesh& cutter) {
   const CutContext context{memory_->distances, memory_->centres, mesh.cut_count + 1, memory_->previous_cut};
   const double slack = contact_slack(context.distances, cutter);
   auto [works, lines] = detect_cutting_lines(
-      mesh, cutter, memory_->broad_phase.candidates(mesh, cutter, slack), slack, context.distances);
+      mesh, cutter, memory_->broad_phase.candidates(mesh, cutter, slack), slack, context.distances, executor);
   watch.lap(timings.detect);
 
   Changes nothing;
@@ -156,25 +169,15 @@ Result<Changes> Cutter::cut(HybridMesh& mesh, const TriangleMesh& cutter) {
     return nothing;
   }
 
-  for (TriangleWork& work : works) merge_cut_endpoints(work, context);
+  executor.for_each(works.size(), [&](std::size_t i) { merge_cut_endpoints(works[i], context); });
   ClusterCentres next_centres;
   merge_on_physics_edges(mesh, works, context, next_centres);
   watch.lap(timings.merge_endpoints);
 
-  std::vector<DisjointPolygons> polygons;  // per work
-  for (TriangleWork& work : works) {
-    std::array<std::vector<LatticePoint>, 3> boundary;
-    for (std::size_t i = 0; i < 3; ++i) boundary[i] = boundary_points(mesh, work.ancestor, i);
-    arrange_triangle(work, boundary, context);
-    // A work whose only change is a cut along one of its sides needs its polygons, too.
-    polygons.push_back(weld_slivers(mesh, work));
-    if (!keeps_all_fragments(work, polygons.back())) {
-      work.lines.clear();
-      arrange_triangle(work, boundary, context);
-      polygons.back() = weld_slivers(mesh, work);
-    }
-    remember_centres(work, polygons.back().arrangement, next_centres);
-  }
+  std::vector<DisjointPolygons> polygons(works.size());
+  executor.for_each(works.size(), [&](std::size_t i) { polygons[i] = arrange(mesh, works[i], context); });
+  for (std::size_t i = 0; i < works.size(); ++i)
+    remember_centres(works[i], polygons[i].arrangement, next_centres);
   std::sort(next_centres.on_edges.begin(), next_centres.on_edges.end());
   std::sort(next_centres.inside.begin(), next_centres.inside.end());
   lattice::sort_unique(next_centres.begun);
@@ -203,7 +206,7 @@ Result<Changes> Cutter::cut(HybridMesh& mesh, const TriangleMesh& cutter) {
   copy_boundary_nodes(mesh, works, log);
   watch.lap(timings.reconnect);
 
-  triangulate_polygons(mesh, works, log);
+  triangulate_polygons(mesh, works, executor, log);
   update_vertex_nodes(mesh, log);
   mesh.state = new_state();
   memory_->broad_phase.add(mesh, log.triangle_copies);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -16,8 +18,7 @@ namespace {
 /// The polygons of one ancestor by their fragments.
 class PolygonsByFragment {
  public:
-  void reset(const Arrangement* arrangement) {
-    sorted_.clear();
+  explicit PolygonsByFragment(const Arrangement* arrangement) {
     if (arrangement == nullptr) return;
     for (std::uint32_t p = 0; p < arrangement->polygons.size(); ++p)
       sorted_.emplace_back(arrangement->polygons[p].triangle, p);
@@ -41,6 +42,38 @@ PhysicsFace physics_face(const HybridMesh& mesh, const PhysicsTriangle& triangle
   return face;
 }
 
+/// @param candidates those of one ancestor, sorted
+Detection detect_on_ancestor(const HybridMesh& mesh, const std::vector<CutterFace>& faces,
+                             std::span<const CandidatePair> candidates, double slack,
+                             const MergeDistances& distances) {
+  const AncestorId ancestor = mesh.buffers.triangles[candidates[0].triangle.index()].ancestor;
+  const Arrangement* arrangement = mesh.arrangement(ancestor);
+  PolygonsByFragment polygons(arrangement);
+  Detection detection;
+  std::vector<LatticePoint> points;
+  std::vector<CuttingLine> lines;
+  for (const CandidatePair& c : candidates) {
+    intersect(physics_face(mesh, mesh.buffers.triangles[c.triangle.index()]), faces[c.cutter_triangle], slack,
+              points);
+    if (points.size() < 2) continue;
+    const std::uint32_t polygon = polygons.of(c.triangle);
+    for (std::size_t k = 0; k + 1 < points.size(); ++k)
+      lines.push_back({polygon, {points[k]}, {points[k + 1]}});
+  }
+  if (lines.empty()) return detection;
+  join_collinear_lines(lines);
+  for (const CuttingLine& l : lines) detection.lines.push_back({ancestor, l.a.point, l.b.point});
+  TriangleWork work = make_work(mesh, ancestor, distances);
+  if (arrangement != nullptr && arrangement->polygons.size() > 1) {
+    for (const CuttingLine& l : lines)
+      clip_to_polygon(work.before, l.polygon, l.a.point, l.b.point, work.lines);
+  } else {
+    work.lines = std::move(lines);
+  }
+  if (!work.lines.empty()) detection.works.push_back(std::move(work));
+  return detection;
+}
+
 }  // namespace
 
 double contact_slack(const MergeDistances& distances, const TriangleMesh& cutter) {
@@ -55,7 +88,7 @@ double farthest_corner(const MergeDistances& distances) { return distances.edge 
 
 Detection detect_cutting_lines(const HybridMesh& mesh, const TriangleMesh& cutter,
                                std::vector<CandidatePair> candidates, double slack,
-                               const MergeDistances& distances) {
+                               const MergeDistances& distances, const Executor& executor) {
   std::vector<CutterFace> faces(cutter.triangles.size());
   std::vector<std::uint8_t> has_area(cutter.triangles.size());
   for (std::size_t i = 0; i < faces.size(); ++i) {
@@ -70,45 +103,31 @@ Detection detect_cutting_lines(const HybridMesh& mesh, const TriangleMesh& cutte
     return faces[c.cutter_triangle].misses(
         {mesh.positions[n[0].index()], mesh.positions[n[1].index()], mesh.positions[n[2].index()]}, slack);
   });
+  const auto ancestor_of = [&](const CandidatePair& c) {
+    return mesh.buffers.triangles[c.triangle.index()].ancestor;
+  };
   std::sort(candidates.begin(), candidates.end(), [&](const CandidatePair& a, const CandidatePair& b) {
-    const AncestorId ancestor_a = mesh.buffers.triangles[a.triangle.index()].ancestor;
-    const AncestorId ancestor_b = mesh.buffers.triangles[b.triangle.index()].ancestor;
+    const AncestorId ancestor_a = ancestor_of(a);
+    const AncestorId ancestor_b = ancestor_of(b);
     return std::tie(ancestor_a, a.triangle, a.cutter_triangle) <
            std::tie(ancestor_b, b.triangle, b.cutter_triangle);
   });
 
+  std::vector<std::size_t> first;  // where each ancestor's candidates begin
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    if (i == 0 || ancestor_of(candidates[i]) != ancestor_of(candidates[i - 1])) first.push_back(i);
+  std::vector<Detection> parts(first.size());
+  executor.for_each(parts.size(), [&](std::size_t k) {
+    const std::size_t end = k + 1 < first.size() ? first[k + 1] : candidates.size();
+    parts[k] =
+        detect_on_ancestor(mesh, faces, {candidates.data() + first[k], end - first[k]}, slack, distances);
+  });
   Detection detection;
-  std::vector<LatticePoint> points;
-  std::vector<CuttingLine> lines;
-  PolygonsByFragment polygons;
-  for (std::size_t i = 0; i < candidates.size();) {
-    const AncestorId ancestor = mesh.buffers.triangles[candidates[i].triangle.index()].ancestor;
-    const Arrangement* arrangement = mesh.arrangement(ancestor);
-    lines.clear();
-    polygons.reset(arrangement);
-    for (; i < candidates.size(); ++i) {
-      const PhysicsTriangle& triangle = mesh.buffers.triangles[candidates[i].triangle.index()];
-      if (triangle.ancestor != ancestor) break;
-      intersect(physics_face(mesh, triangle), faces[candidates[i].cutter_triangle], slack, points);
-      if (points.size() < 2) continue;
-      const std::uint32_t polygon = polygons.of(candidates[i].triangle);
-      for (std::size_t k = 0; k + 1 < points.size(); ++k)
-        lines.push_back({polygon, {points[k]}, {points[k + 1]}});
-    }
-    if (lines.empty()) continue;
-    join_collinear_lines(lines);
-    for (const CuttingLine& l : lines) detection.lines.push_back({ancestor, l.a.point, l.b.point});
-    TriangleWork work = make_work(mesh, ancestor, distances);
-    if (arrangement != nullptr && arrangement->polygons.size() > 1) {
-      for (const CuttingLine& l : lines)
-        clip_to_polygon(work.before, l.polygon, l.a.point, l.b.point, work.lines);
-    } else {
-      work.lines = lines;
-    }
-    if (!work.lines.empty()) detection.works.push_back(std::move(work));
+  for (Detection& part : parts) {
+    std::move(part.works.begin(), part.works.end(), std::back_inserter(detection.works));
+    detection.lines.insert(detection.lines.end(), part.lines.begin(), part.lines.end());
   }
-  auto& found = detection.lines;
-  lattice::sort_unique(found);
+  lattice::sort_unique(detection.lines);
   return detection;
 }
 

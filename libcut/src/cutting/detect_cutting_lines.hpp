@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "cut/executor.hpp"
 #include "cut/hybrid_mesh.hpp"
 #include "cut/triangle_mesh.hpp"
 #include "cutting/state.hpp"
@@ -43,6 +44,6 @@ struct Detection {
 /// The result does not depend on the order of `candidates`. O(candidates · log).
 Detection detect_cutting_lines(const HybridMesh& mesh, const TriangleMesh& cutter,
                                std::vector<CandidatePair> candidates, double slack,
-                               const MergeDistances& distances);
+                               const MergeDistances& distances, const Executor& executor);
 
 }  // namespace cut

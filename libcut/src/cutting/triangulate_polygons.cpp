@@ -7,24 +7,53 @@
 
 namespace cut {
 
-void triangulate_polygons(HybridMesh& mesh, std::span<const TriangleWork> works, ChangeLog& log) {
+namespace {
+
+/// Triangles of all polygons of one arrangement, as corners of their polygon.
+struct Triangulation {
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::size_t> ends;  ///< per polygon: where its triangles end
+};
+
+Triangulation triangulation_of(const Arrangement& arrangement, const lattice::Metric& metric) {
+  Triangulation result;
   lattice::TriangulationScratch scratch;
   std::vector<LatticePoint> points;
   std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (const RenderPolygon& polygon : arrangement.polygons) {
+    points.clear();
+    for (const PolygonCorner& c : polygon.corners) points.push_back(arrangement.nodes[c.node].point);
+    lattice::triangulate(points, polygon.loop_ends, metric, triangles, scratch);
+    result.triangles.insert(result.triangles.end(), triangles.begin(), triangles.end());
+    result.ends.push_back(result.triangles.size());
+  }
+  return result;
+}
+
+}  // namespace
+
+void triangulate_polygons(HybridMesh& mesh, std::span<const TriangleWork> works, const Executor& executor,
+                          ChangeLog& log) {
+  std::vector<Triangulation> triangulations(works.size());
+  executor.for_each(works.size(), [&](std::size_t i) {
+    triangulations[i] = triangulation_of(*mesh.arrangement(works[i].ancestor), works[i].metric);
+  });
   std::vector<RenderTriangleId> idle;
   auto& render_triangles = mesh.buffers.render_triangles;
-  for (const TriangleWork& work : works) {
+  for (std::size_t w = 0; w < works.size(); ++w) {
+    const TriangleWork& work = works[w];
+    const Triangulation& triangulation = triangulations[w];
     idle.clear();
     for (const RenderPolygon& polygon : work.before.polygons)
       idle.insert(idle.end(), polygon.triangles.begin(), polygon.triangles.end());
     std::sort(idle.begin(), idle.end(), std::greater<>());
     Arrangement& arrangement = mesh.arrangements[mesh.arrangement_of[work.ancestor.index()]];
-    for (RenderPolygon& polygon : arrangement.polygons) {
-      points.clear();
-      for (const PolygonCorner& c : polygon.corners) points.push_back(arrangement.nodes[c.node].point);
-      lattice::triangulate(points, polygon.loop_ends, work.metric, triangles, scratch);
+    std::size_t next = 0;
+    for (std::size_t p = 0; p < arrangement.polygons.size(); ++p) {
+      RenderPolygon& polygon = arrangement.polygons[p];
       polygon.triangles.clear();
-      for (const auto& t : triangles) {
+      for (; next < triangulation.ends[p]; ++next) {
+        const auto& t = triangulation.triangles[next];
         RenderTriangleId id{render_triangles.size()};
         if (!idle.empty()) {
           id = idle.back();

@@ -4,6 +4,7 @@
 #pragma once
 #include <span>
 
+#include "cut/executor.hpp"
 #include "cut/hybrid_mesh.hpp"
 #include "cutting/change_log.hpp"
 #include "cutting/state.hpp"
@@ -11,7 +12,8 @@
 namespace cut {
 
 /// Triangulates all polygons of the works' triangles, into the entries that they had and free ones.
-void triangulate_polygons(HybridMesh& mesh, std::span<const TriangleWork> works, ChangeLog& log);
+void triangulate_polygons(HybridMesh& mesh, std::span<const TriangleWork> works, const Executor& executor,
+                          ChangeLog& log);
 
 /// Render vertices take over the nodes of the physics triangles that the log names.
 void update_vertex_nodes(HybridMesh& mesh, ChangeLog& log);
