@@ -14,8 +14,10 @@
 
 #include "cut/changes.hpp"
 #include "cut/error.hpp"
+#include "cut/executor.hpp"
 #include "cut/hybrid_mesh.hpp"
 #include "cut/material.hpp"
+#include "cut/spring_blocks.hpp"
 
 namespace cut {
 
@@ -48,19 +50,14 @@ struct alignas(32) PaddedVector {
   double x = 0, y = 0, z = 0, w = 0;
 };
 
-/// Springs as the step wants them. Entries that are not in use join node 0 to itself with k = c = 0, so that
-/// they make no force and need no branch.
-struct SpringArrays {
-  std::vector<std::array<std::uint32_t, 2>> nodes;
-  std::vector<double> rest_length;
-  std::vector<double> stiffness;
-  std::vector<double> damping;
-};
+struct VelocityUpdate;
 
 /// Moves a hybrid mesh in time.
 class Simulation {
  public:
   Surroundings surroundings;
+  /// Runs the loops over blocks of nodes. Results are the same to the bit whatever it does.
+  Executor executor;
 
   /// A simulation of the mesh as it is now, cut or not, at rest. Error: bad_parameter for a material that is
   /// not finite or out of range. O(mesh).
@@ -130,6 +127,8 @@ class Simulation {
   void update_copies(const HybridMesh& mesh, AncestorNodeId node);
   void update_springs(const HybridMesh& mesh, AncestorEdgeId edge);
   void copy_nodes(const Changes& changes);
+  void settle_springs();
+  [[nodiscard]] bool add_forces_and_replace_by_velocities(const VelocityUpdate& update);
   void take_over_fragments(const Changes& changes, const HybridMesh& mesh, std::size_t first_new_triangle);
   [[nodiscard]] double time_step_limit(Integrator integrator, double stiffness_ratio,
                                        double damping_ratio) const;
@@ -149,7 +148,12 @@ class Simulation {
   std::vector<PaddedVector> positions_;        ///< work space of `step`
   std::vector<PaddedVector> forces_;           ///< work space of `step`
 
-  SpringArrays springs_;  ///< per spring of the mesh, padded to a multiple of 4 with free entries
+  SpringArrays springs_;             ///< per spring of the mesh, padded to a multiple of 4 with free entries
+  std::vector<SpringPlace> places_;  ///< per entry of `springs_`
+  std::vector<std::uint32_t>
+      touched_;                      ///< entries of `springs_` that were written to since they were settled
+  SpringBlocks blocks_;              ///< what the step goes through
+  std::vector<std::uint8_t> sound_;  ///< work space of `step`, per block
   /// Per physics triangle: w_i of its three corners. Conserving mode only.
   std::vector<std::array<double, 3>> weights_;
 };

@@ -18,6 +18,7 @@ std::optional<Error> Simulation::apply(const Changes& changes, const HybridMesh&
   for (const auto& entry : changes.springs.entries) set_spring(SpringId{entry.index}, mesh);
   copy_nodes(changes);
   if (material_.mode == MaterialMode::conserving) take_over_fragments(changes, mesh, first_new_triangle);
+  settle_springs();
   topology_version_ = changes.version_after;
   return std::nullopt;
 }
@@ -26,6 +27,7 @@ std::optional<Error> Simulation::apply(const Changes& changes, const HybridMesh&
 void Simulation::copy_nodes(const Changes& changes) {
   for (const NodeCopy& copy : changes.node_copies) {
     const std::size_t to = copy.node.index(), from = copy.source.index();
+    blocks_.add_copy(copy.source.value);
     velocities_[to] = velocities_[from];
     anchored_[to] = anchored_[from];
     mass_[to] = mass_[from];
@@ -46,6 +48,14 @@ void Simulation::set_spring(SpringId spring, const HybridMesh& mesh) {
   springs_.rest_length[i] = used ? mesh.ancestors.rest_length(value.edge) : 0;
   springs_.stiffness[i] = used ? material_.stiffness : 0;
   springs_.damping[i] = used ? material_.damping : 0;
+  touched_.push_back(spring.value);
+}
+
+/// Copies what was written to springs to the blocks.
+void Simulation::settle_springs() {
+  places_.resize(springs_.nodes.size());
+  for (const std::uint32_t i : touched_) blocks_.set(springs_, i, places_[i]);
+  touched_.clear();
 }
 
 void Simulation::take_over_fragments(const Changes& changes, const HybridMesh& mesh,

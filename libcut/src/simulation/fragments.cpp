@@ -147,6 +147,7 @@ void Simulation::update_springs(const HybridMesh& mesh, AncestorEdgeId edge) {
     for (; share != shares.end() && share->first == nodes; ++share) sum += share->second;
     springs_.stiffness[spring.index()] = material_.stiffness * sum;
     springs_.damping[spring.index()] = material_.damping * sum;
+    touched_.push_back(spring.value);
   };
   if (const EdgeState* state = mesh.edge_state(edge))
     for (const SpringId spring : state->springs) set(spring);

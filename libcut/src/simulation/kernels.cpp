@@ -6,6 +6,7 @@
 namespace cut {
 namespace {
 
+template <bool both_nodes>
 void add_spring_forces(const SpringArrays& springs, const PaddedVector* positions,
                        const PaddedVector* velocities, PaddedVector* forces) {
   for (std::size_t i = 0; i < springs.nodes.size(); ++i) {
@@ -21,13 +22,13 @@ void add_spring_forces(const SpringArrays& springs, const PaddedVector* position
     // Root and quotient do not wait for each other.
     const double inverse_squared = squared >= smallest_squared_length ? 1 / squared : 0;
     const double stretch = springs.stiffness[i] * (length - springs.rest_length[i]);
-    // + 0.0: the fourth component, which decides the sign of a zero.
-    const double rate = springs.damping[i] * ((ux * dx + uy * dy) + (uz * dz + 0.0));
+    const double rate = springs.damping[i] * ((ux * dx + uy * dy) + uz * dz);
     const double scale = (stretch * length + rate) * inverse_squared;
     const double fx = dx * scale, fy = dy * scale, fz = dz * scale;
     forces[a].x += fx;
     forces[a].y += fy;
     forces[a].z += fz;
+    if constexpr (!both_nodes) continue;
     forces[b].x -= fx;
     forces[b].y -= fy;
     forces[b].z -= fz;
@@ -65,7 +66,8 @@ void move(double time_step, std::span<PaddedVector> positions, const PaddedVecto
 }  // namespace
 
 const Kernels& portable_kernels() {
-  static constexpr Kernels kernels{add_spring_forces, replace_by_velocities, move};
+  static constexpr Kernels kernels{add_spring_forces<true>, add_spring_forces<false>, replace_by_velocities,
+                                   move};
   return kernels;
 }
 

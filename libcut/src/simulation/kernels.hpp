@@ -28,6 +28,9 @@ struct Kernels {
   /// number is a multiple of 4.
   void (*add_spring_forces)(const SpringArrays& springs, const PaddedVector* positions,
                             const PaddedVector* velocities, PaddedVector* forces);
+  /// The same for the first node of each spring only.
+  void (*add_forces_at_first_node)(const SpringArrays& springs, const PaddedVector* positions,
+                                   const PaddedVector* velocities, PaddedVector* forces);
   /// Equations 4 and 5: replaces each force by the node's next velocity. Returns whether all of them are
   /// within the speed limit, which none that is NaN or infinite is.
   bool (*replace_by_velocities)(const VelocityUpdate& update, std::span<const double> inverse_mass,

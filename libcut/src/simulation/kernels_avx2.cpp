@@ -14,15 +14,25 @@ namespace {
 SNIP_AVX2 inline __m256d load(const PaddedVector& v) { return _mm256_load_pd(&v.x); }
 SNIP_AVX2 inline void store(PaddedVector& v, __m256d value) { _mm256_store_pd(&v.x, value); }
 
-/// (x + y) + z of four vectors whose w is zero.
-SNIP_AVX2 inline __m256d sums(__m256d a, __m256d b, __m256d c, __m256d d) {
-  const __m256d ab = _mm256_hadd_pd(a, b);  // ax+ay bx+by az+aw bz+bw
-  const __m256d cd = _mm256_hadd_pd(c, d);
-  const __m256d xy = _mm256_blend_pd(ab, _mm256_permute2f128_pd(cd, cd, 0x00), 0b1100);
-  const __m256d zw = _mm256_blend_pd(_mm256_permute2f128_pd(ab, ab, 0x11), cd, 0b1100);
-  return _mm256_add_pd(xy, zw);
+/// The components of four vectors side by side.
+struct Columns {
+  __m256d x, y, z;
+};
+
+SNIP_AVX2 inline Columns columns(__m256d a, __m256d b, __m256d c, __m256d d) {
+  const __m256d ab_xz = _mm256_unpacklo_pd(a, b), cd_xz = _mm256_unpacklo_pd(c, d);
+  const __m256d ab_yw = _mm256_unpackhi_pd(a, b), cd_yw = _mm256_unpackhi_pd(c, d);
+  return {_mm256_permute2f128_pd(ab_xz, cd_xz, 0x20), _mm256_permute2f128_pd(ab_yw, cd_yw, 0x20),
+          _mm256_permute2f128_pd(ab_xz, cd_xz, 0x31)};
 }
 
+/// (x + y) + z of the products.
+SNIP_AVX2 inline __m256d products(const Columns& a, const Columns& b) {
+  return _mm256_add_pd(_mm256_add_pd(_mm256_mul_pd(a.x, b.x), _mm256_mul_pd(a.y, b.y)),
+                       _mm256_mul_pd(a.z, b.z));
+}
+
+template <bool both_nodes>
 SNIP_AVX2 void add_spring_forces(const SpringArrays& springs, const PaddedVector* positions,
                                  const PaddedVector* velocities, PaddedVector* forces) {
   const __m256d one = _mm256_set1_pd(1);
@@ -36,20 +46,20 @@ SNIP_AVX2 void add_spring_forces(const SpringArrays& springs, const PaddedVector
       return _mm256_sub_pd(load(velocities[nodes[k][1]]), load(velocities[nodes[k][0]]));
     };
     const __m256d d0 = along(0), d1 = along(1), d2 = along(2), d3 = along(3);
-    const __m256d squared =
-        sums(_mm256_mul_pd(d0, d0), _mm256_mul_pd(d1, d1), _mm256_mul_pd(d2, d2), _mm256_mul_pd(d3, d3));
+    const Columns d = columns(d0, d1, d2, d3);
+    const __m256d squared = products(d, d);
     const __m256d length = _mm256_sqrt_pd(squared);
     const __m256d inverse_squared =
         _mm256_and_pd(_mm256_div_pd(one, squared), _mm256_cmp_pd(squared, smallest, _CMP_GE_OQ));
     const __m256d stretch = _mm256_mul_pd(_mm256_loadu_pd(&springs.stiffness[i]),
                                           _mm256_sub_pd(length, _mm256_loadu_pd(&springs.rest_length[i])));
-    const __m256d rate = _mm256_mul_pd(_mm256_loadu_pd(&springs.damping[i]),
-                                       sums(_mm256_mul_pd(rate_of(0), d0), _mm256_mul_pd(rate_of(1), d1),
-                                            _mm256_mul_pd(rate_of(2), d2), _mm256_mul_pd(rate_of(3), d3)));
+    const Columns u = columns(rate_of(0), rate_of(1), rate_of(2), rate_of(3));
+    const __m256d rate = _mm256_mul_pd(_mm256_loadu_pd(&springs.damping[i]), products(u, d));
     const __m256d scale = _mm256_mul_pd(_mm256_add_pd(_mm256_mul_pd(stretch, length), rate), inverse_squared);
     const auto add = [&](std::size_t k, __m256d force) SNIP_AVX2 {
       PaddedVector& a = forces[nodes[k][0]];
       store(a, _mm256_add_pd(load(a), force));
+      if constexpr (!both_nodes) return;
       PaddedVector& b = forces[nodes[k][1]];
       store(b, _mm256_sub_pd(load(b), force));
     };
@@ -91,7 +101,8 @@ SNIP_AVX2 void move(double time_step, std::span<PaddedVector> positions, const P
 }  // namespace
 
 const Kernels& best_kernels() {
-  static constexpr Kernels kernels{add_spring_forces, replace_by_velocities, move};
+  static constexpr Kernels kernels{add_spring_forces<true>, add_spring_forces<false>, replace_by_velocities,
+                                   move};
   static const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
   return has_avx2 ? kernels : portable_kernels();
 }

@@ -39,6 +39,7 @@ Result<Simulation> Simulation::build(const HybridMesh& mesh, const Material& mat
     s.diagonal_ = length(high - low);
   }
   s.resize(mesh);
+  s.blocks_.reset(mesh.buffers.nodes.size());
   for (std::size_t i = 0; i < mesh.buffers.springs.size(); ++i) s.set_spring(SpringId{i}, mesh);
   if (material.mode == MaterialMode::conserving) {
     for (std::size_t t = 0; t < mesh.ancestors.triangles.size(); ++t) s.measure_weights(mesh, AncestorId{t});
@@ -46,6 +47,8 @@ Result<Simulation> Simulation::build(const HybridMesh& mesh, const Material& mat
   }
   for (std::size_t n = 0; n < mesh.ancestors.rest_positions.size(); ++n)
     s.update_copies(mesh, AncestorNodeId{n});
+  s.settle_springs();
+  s.sound_.resize(s.blocks_.blocks().size());
   return s;
 }
 
