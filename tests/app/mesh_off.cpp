@@ -73,6 +73,9 @@ TEST_CASE("off: what is wrong is named with its line") {
         "input:6: vertex index -1 is out of range: the file has 3 vertices, counted from 0");
   CHECK(refusal(points + "3 0 1\n") == "input:6: vertex index is missing");
   CHECK(refusal(points + "99999999999 0 1\n") == "input:6: vertex index is missing");
+  CHECK(refusal(points + "3 0 1 2\n# more\n3 2 1 0\n") ==
+        "input:8: unexpected '3': there are more lines than the header announces");
+  CHECK(refusal(points + "3 0 1 2\n# the end\n\n") == "accepted");
   CHECK(refusal("OFF\n3 1 0\n0 0 0\n1 inf 0\n0 1 0\n") == "input:4: coordinate is not finite: 'inf'");
   CHECK(refusal("OFF\n3 1 0\n0 0 0\n1 -1e51 0\n0 1 0\n") == "input:4: coordinate is too large: '-1e51'");
   CHECK(refusal("OFF\n3 1 0\n0 0 0\n1 0 0 255 0 0\n0 1 0\n") ==

@@ -194,6 +194,20 @@ TEST_CASE("ply: every truncation of a binary file is refused, with the place") {
         "input:5: the header announces 1 of element 'camera', the file is too short for that");
 }
 
+TEST_CASE("ply: what follows the rows that the header announces is refused, unless it is blank") {
+  const std::string text = ascii_file();
+  CHECK(refusal(text + "\r\n \n") == "accepted");
+  CHECK(refusal(text + "\n1 3 0 2 3\n") ==
+        "input:35: unexpected '1': there are more rows than the header announces");
+  for (const bool big_endian : {false, true}) {
+    const std::string binary = binary_file(big_endian);
+    CHECK(refusal(binary + "\r\n") == "accepted");
+    CHECK(refusal(binary + std::string(14, '\0')) ==
+          "input: byte " + std::to_string(binary.size()) +
+              ": there are 14 bytes more than the header announces");
+  }
+}
+
 TEST_CASE("ply: bad values in a binary body") {
   std::string file = binary_file(false);
   const std::size_t vertices = file.find("end_header\n") + 11 + 8;

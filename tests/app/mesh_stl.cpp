@@ -1,4 +1,7 @@
 // Reading STL.
+#include <algorithm>
+#include <cctype>
+
 #include "mesh_testing.hpp"
 #include "snip/mesh_file/scalar.hpp"
 
@@ -50,6 +53,13 @@ TEST_CASE("stl: a binary file that begins with 'solid' is told by its size") {
   check_square(parsed(binary("solid but binary", square), stl));
 }
 
+TEST_CASE("stl: ascii in upper case, behind blank lines") {
+  std::string text =
+      "\n\tsolid a\n" + facet("0 0 0", "1 0 0", "1 1 0") + facet("1 1 0", "0 1 0", "0 0 0") + "endsolid a\n";
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::toupper(c); });
+  check_square(parsed(text, stl));
+}
+
 TEST_CASE("stl: nearly equal corners stay apart") {
   const snip::Mesh mesh = parsed(
       "solid\n" + facet("0 0 0", "1 0 0", "0 1 0") + facet("0 1e-12 0", "0 1 0", "1 0 0") + "endsolid", stl);
@@ -83,6 +93,7 @@ TEST_CASE("stl: what is wrong with a binary file is named with its byte") {
 
 TEST_CASE("stl: what is wrong with an ascii file is named with its line") {
   const std::string one = "solid\n" + facet("0 0 0", "1 0 0", "0 1 0");
+  CHECK(refusal("solids\n").find("input: not an STL file") == 0);
   CHECK(refusal("solid\nendsolid\n") == "input: there is no facet in it");
   CHECK(refusal(one) == "input:8: the file ends within a solid: 'endsolid' is missing");
   CHECK(refusal("solid\n" + facet("0 0", "1 0 0", "0 1 0")) == "input:4: coordinate is missing");

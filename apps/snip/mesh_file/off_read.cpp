@@ -22,6 +22,9 @@ class OffReader {
     read_counts(read_keyword());
     for (std::size_t vertex = 0; vertex < vertices_; ++vertex) read_vertex(vertex);
     for (std::size_t face = 0; face < faces_; ++face) read_face(face);
+    if (lines_.next_with_words())
+      fail_at_line(lines_.number(), "unexpected {}: there are more lines than the header announces",
+                   quote(Words(lines_.line()).next()));
     if (soup_.polygon_ends.empty()) fail("there is no face in it");
     if (has_uvs_) soup_.corner_uvs = soup_.corner_positions;
     if (has_normals_) soup_.corner_normals = soup_.corner_positions;

@@ -35,6 +35,11 @@ class AsciiRows {
     const std::string_view word = words_.next();
     if (!word.empty()) fail_here("unexpected {} at the end of the line", scan::quote(word));
   }
+  void expect_end() {
+    while (lines_.next())
+      if (const std::string_view word = scan::Words(lines_.line()).next(); !word.empty())
+        fail_here("unexpected {}: there are more rows than the header announces", scan::quote(word));
+  }
   double next(const PlyProperty& property, ScalarType) {
     return scan::to_number(words_.next(), lines_.number(), property.label);
   }
@@ -66,6 +71,12 @@ class BinaryRows {
     row_offset_ = offset_;
   }
   void end_row() const {}
+  // Blanks do not matter: some programs end any file with a line feed.
+  void expect_end() const {
+    const std::size_t extra = bytes_.find_first_not_of(" \t\r\n", offset_);
+    if (extra != std::string_view::npos)
+      fail_at_byte(offset_, "there are {} bytes more than the header announces", bytes_.size() - offset_);
+  }
   double next(const PlyProperty&, ScalarType type) {
     const std::size_t size = size_of(type);
     expect(size);
@@ -271,6 +282,7 @@ Mesh read_body(Rows rows, const PlyHeader& header) {
       }
     }
   }
+  rows.expect_end();
   if (soup.positions.empty()) fail("there is no vertex in it");
   if (soup.polygon_ends.empty()) fail("there is no face in it: a surface needs an element 'face'");
   if (vertices.has_normals) soup.corner_normals = soup.corner_positions;

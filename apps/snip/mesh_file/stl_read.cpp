@@ -1,4 +1,5 @@
 // Reads STL, binary or ascii: loose corners in, points shared by exact equality out.
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -81,6 +82,12 @@ Mesh read_binary(std::string_view bytes) {
   return to_mesh(std::move(corners.soup));
 }
 
+// Keywords of ascii STL are lower case; some programs write upper case.
+bool is_keyword(std::string_view word, std::string_view keyword) {
+  return std::ranges::equal(
+      word, keyword, {}, [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+}
+
 // Ascii STL is one statement in each line; the words that carry nothing are checked all the same, because
 // they are all that tells an STL from another text.
 class AsciiReader {
@@ -100,7 +107,7 @@ class AsciiReader {
   void read_solid() {
     while (true) {
       advance();
-      if (scan::Words(lines_.line()).peek() == "endsolid") return;
+      if (is_keyword(scan::Words(lines_.line()).peek(), "endsolid")) return;
       expect({"facet", "normal"});
       advance();
       expect({"outer", "loop"});
@@ -132,7 +139,8 @@ class AsciiReader {
     scan::Words words(lines_.line());
     for (const std::string_view keyword : keywords) {
       const std::string_view word = words.next();
-      if (word != keyword) fail_at_line(lines_.number(), "expected '{}', found {}", keyword, quote(word));
+      if (!is_keyword(word, keyword))
+        fail_at_line(lines_.number(), "expected '{}', found {}", keyword, quote(word));
     }
     return words;
   }
@@ -147,7 +155,9 @@ Mesh read_stl(std::string_view bytes) {
   // Some programs begin binary files with "solid" too: the size decides.
   const bool has_binary_size =
       bytes.size() >= header_size && bytes.size() == header_size + announced_facets(bytes) * facet_size;
-  if (has_binary_size || !bytes.starts_with("solid")) return read_binary(bytes);
+  scan::Lines lines(bytes);
+  const bool is_ascii = lines.next_with_words() && is_keyword(scan::Words(lines.line()).peek(), "solid");
+  if (has_binary_size || !is_ascii) return read_binary(bytes);
   return AsciiReader(bytes).read();
 }
 
