@@ -72,9 +72,20 @@ TEST_CASE("weld: agrees with comparing every pair of points") {
   }));
 }
 
+TEST_CASE("weld: how far off a mesh lies does not matter") {
+  Mesh mesh;
+  const Eigen::Vector3d far{4e6, -5e6, 1e9};
+  for (const double x : {0.0, 0.5, 1.0, 1.0009, 0.4992, 0.502})
+    mesh.positions.emplace_back(far + Eigen::Vector3d(x, 0, 0));
+  const std::vector<Eigen::Vector3d> before = mesh.positions;
+  const auto merged = snip::weld(mesh, 0.001, "name");
+  REQUIRE(merged);
+  CHECK(mesh.positions == std::vector<Eigen::Vector3d>{before[0], before[1], before[2], before[5]});
+}
+
 TEST_CASE("weld: distances that cannot work are refused") {
   Mesh mesh;
-  mesh.positions = {{1e6, 0, 0}};
+  mesh.positions = {{1e6, 0, 0}, {0, 0, 0}};
   const auto message = [&mesh](double distance) {
     const auto result = snip::weld(mesh, distance, "name");
     return result ? std::string("accepted") : result.error().message;
@@ -85,6 +96,6 @@ TEST_CASE("weld: distances that cannot work are refused") {
   CHECK(message(std::numeric_limits<double>::quiet_NaN()) ==
         "the distance must be a positive number, not nan");
   CHECK(
-      message(1e-9).starts_with("name: the distance 1e-09 cannot be used: vertex 0 is more than 2^30 times"));
+      message(1e-9).starts_with("name: the distance 1e-09 cannot be used: the mesh is more than 2^30 times"));
   CHECK(message(1e-200).starts_with("name: the distance 1e-200 cannot be used"));
 }
