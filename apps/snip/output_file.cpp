@@ -44,6 +44,35 @@ Result<fs::path> followed(const fs::path& path) {
   return not_written(path, ELOOP);
 }
 
+std::string path_of(int file) { return fmt::format("/proc/self/fd/{}", file); }
+
+// A file in this folder that no name leads to: should the process be killed, nothing is left of it. -1 where
+// the file system or the way to name it later, /proc, is missing.
+int without_name(const fs::path& folder) {
+  const int file = ::open(folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
+  if (file >= 0 && ::access(path_of(file).c_str(), F_OK) == 0) return file;
+  if (file >= 0) ::close(file);
+  return -1;
+}
+
+// Gives a file a name beside `target` that nothing has yet. @return 0, or the reason of the failure
+template <class Make>
+int under_free_name(const fs::path& target, fs::path& chosen, Make make) {
+  const std::string name = target.filename().string();
+  // The number of a process comes again, and with it a name that a process before left when it was killed.
+  for (int attempt = 0; attempt < 1000; ++attempt) {
+    constexpr std::size_t most_kept = 200;  // of 255 bytes that a name may have
+    const fs::path path =
+        folder_of(target) / fmt::format("{}.{}-{}.part", name.substr(0, most_kept), ::getpid(), attempt);
+    if (make(path.c_str())) {
+      chosen = path;
+      return 0;
+    }
+    if (errno != EEXIST) return errno;
+  }
+  return EEXIST;
+}
+
 int write_all(int file, std::string_view bytes) {
   while (!bytes.empty()) {
     const ::ssize_t written = ::write(file, bytes.data(), bytes.size());
@@ -84,8 +113,8 @@ bool same_target(const fs::path& a, const fs::path& b) {
 struct OutputFile::State {
   fs::path path;  // as it was given, for messages
   fs::path target;
-  fs::path temporary;
-  int file = -1;  // -1: closed
+  fs::path temporary;  // empty: the file has no name yet
+  int file = -1;       // -1: closed
   bool published = false;
   int failure = 0;
   std::string buffer;
@@ -107,25 +136,20 @@ OutputFile::~OutputFile() = default;
 Result<OutputFile> OutputFile::create(const fs::path& path) {
   const Result<fs::path> target = output_target(path);
   if (!target) return target.error();
-  const std::string name = target->filename().string();
-  // The number of a process comes again, and with it a name that a process before left when it was killed.
-  for (int attempt = 0; attempt < 1000; ++attempt) {
-    constexpr std::size_t most_kept = 200;  // of 255 bytes that a name may have
-    const fs::path temporary =
-        folder_of(*target) / fmt::format("{}.{}-{}.part", name.substr(0, most_kept), ::getpid(), attempt);
-    const int file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (file < 0 && errno == EEXIST) continue;
-    if (file < 0) return not_written(path, errno);
-    auto state = std::make_unique<State>();
-    state->path = path;
-    state->target = *target;
-    state->temporary = temporary;
-    state->file = file;
-    struct stat replaced{};
-    if (::stat(target->c_str(), &replaced) == 0) (void)::fchmod(file, replaced.st_mode & 0777);
-    return OutputFile(std::move(state));
+  auto state = std::make_unique<State>();
+  state->path = path;
+  state->target = *target;
+  state->file = without_name(folder_of(*target));
+  if (state->file < 0) {
+    const int code = under_free_name(state->target, state->temporary, [&](const char* name) {
+      state->file = ::open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      return state->file >= 0;
+    });
+    if (code != 0) return not_written(path, code);
   }
-  return not_written(path, "beside it are too many files of interrupted runs: their names end in .part");
+  struct stat replaced{};
+  if (::stat(target->c_str(), &replaced) == 0) (void)::fchmod(state->file, replaced.st_mode & 0777);
+  return OutputFile(std::move(state));
 }
 
 Result<> OutputFile::failed(int code) {
@@ -154,13 +178,24 @@ Result<> OutputFile::write(std::string_view bytes) {
 Result<> OutputFile::complete() {
   if (const Result<> written = write_out(); !written || state_->file < 0) return written;
   const int sync = ::fsync(state_->file) == 0 ? 0 : errno;
+  if (sync != 0) return failed(sync);
+  if (state_->temporary.empty()) return {};  // closed, it would be gone
   const int close = ::close(std::exchange(state_->file, -1)) == 0 ? 0 : errno;
-  const int code = sync != 0 ? sync : close;
-  return code == 0 ? Result<>() : failed(code);
+  return close == 0 ? Result<>() : failed(close);
 }
 
 Result<> OutputFile::publish() {
   if (const Result<> completed = complete(); !completed) return completed;
+  if (state_->temporary.empty()) {
+    const auto link_as = [from = path_of(state_->file)](const char* name) {
+      return ::linkat(AT_FDCWD, from.c_str(), AT_FDCWD, name, AT_SYMLINK_FOLLOW) == 0;
+    };
+    state_->published = link_as(state_->target.c_str());
+    if (state_->published) return {};
+    // A link replaces nothing, a name does.
+    const int code = errno != EEXIST ? errno : under_free_name(state_->target, state_->temporary, link_as);
+    if (code != 0) return failed(code);
+  }
   if (std::rename(state_->temporary.c_str(), state_->target.c_str()) != 0) return failed(errno);
   state_->published = true;
   return {};

@@ -1,6 +1,7 @@
 /// @file
-/// Files that appear whole or not at all: written beside their target under another name, and renamed when
-/// all bytes are on the disk.
+/// Files that appear whole or not at all: written without a name (O_TMPFILE), which they get when all bytes
+/// are on the disk. Where the file system has no such files, they are written beside their target under
+/// another name, which remains when the process is killed.
 #pragma once
 #include <filesystem>
 #include <memory>

@@ -1,4 +1,5 @@
 // What the program does when it cannot write: streams that are closed or full, files in the way.
+#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -182,7 +183,8 @@ TEST_CASE("cli: what interrupted runs left, and long names, do no harm") {
   const Inputs inputs;
   // Whatever number the process has, a file of that name is there already.
   const std::string line =
-      "sh -c 'touch out.obj.$$-0.part; exec snip cut sheet.obj wall.off -o out.obj' && ls *.part | wc -l > "
+      "sh -c 'touch out.obj out.obj.$$-0.part; exec snip cut sheet.obj wall.off -o out.obj' && ls *.part | "
+      "wc -l > "
       "count";
   CHECK(shell(inputs.directory, line) == 0);
   CHECK(inputs.directory.read("out.obj").find("g piece_1") != std::string::npos);
@@ -190,6 +192,22 @@ TEST_CASE("cli: what interrupted runs left, and long names, do no harm") {
   const std::string longest = std::string(251, 'x') + ".obj";
   CHECK(inputs.snip("weld sheet.obj -d 0.1 -o " + longest).exit_code == 0);
   CHECK(fs::is_regular_file(inputs.directory / longest));
+}
+
+TEST_CASE("cli: a run that is killed leaves whole files only") {
+  const Inputs inputs;
+  const int nameless = ::open(inputs.directory.path().c_str(), O_WRONLY | O_TMPFILE, 0600);
+  if (nameless < 0) return;  // not on this file system, see OutputFile
+  ::close(nameless);
+  inputs.directory.write("long.json",
+                         R"({"cloth": {"shape": "grid", "columns": 2, "rows": 2}, "frames": 90000,
+      "output": {"picture_interval": 90000, "animation_interval": 10, "width": 16, "height": 16}})");
+  // The first picture is there while the table, the animation and the mesh are not.
+  const std::string line =
+      "snip run long.json -o out >said 2>&1 & while [ ! -e out/frame_00000.png ]; do kill -0 $! || exit 1; "
+      "sleep 0.05; done; kill -KILL $!; wait $!; ls -A out >left";
+  CHECK(shell(inputs.directory, line) == 0);
+  CHECK(inputs.directory.read("left") == "frame_00000.png\n");
 }
 
 TEST_CASE("cli: a file that may not be written is left alone") {
