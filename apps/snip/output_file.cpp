@@ -57,7 +57,7 @@ int without_name(const fs::path& folder) {
 
 // Gives a file a name beside `target` that nothing has yet. @return 0, or the reason of the failure
 template <class Make>
-int under_free_name(const fs::path& target, fs::path& chosen, Make make) {
+int under_free_name(const fs::path& target, fs::path& chosen, const Make& make) {
   const std::string name = target.filename().string();
   // The number of a process comes again, and with it a name that a process before left when it was killed.
   for (int attempt = 0; attempt < 1000; ++attempt) {

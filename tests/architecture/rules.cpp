@@ -27,7 +27,9 @@ const std::vector<Layer> layers{
     {"changes", {"spatial", "base", "lattice", "mesh"}, {"changes"}},
     {"validate", {"spatial", "base", "lattice", "mesh", "changes"}, {"validate"}},
     {"cutting", {"spatial", "base", "lattice", "mesh", "changes", "validate"}, {"cutter"}},
-    {"simulation", {"spatial", "base", "lattice", "mesh", "changes"}, {"material", "simulation", "spring_blocks"}},
+    {"simulation",
+     {"spatial", "base", "lattice", "mesh", "changes"},
+     {"material", "simulation", "spring_blocks"}},
 };
 
 bool contains(const Names& names, std::string_view name) {

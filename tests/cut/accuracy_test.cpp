@@ -65,8 +65,8 @@ std::string met(const cut::HybridMesh& mesh, const cut::TriangleMesh& cutter,
   cut::BroadPhase broad_phase;
   cut::Error error{};
   if (!broad_phase.update(mesh, error)) return error.message;
-  const cut::Detection found =
-      cut::detect_cutting_lines(mesh, cutter, broad_phase.candidates(mesh, cutter, slack), slack, distances, {});
+  const cut::Detection found = cut::detect_cutting_lines(
+      mesh, cutter, broad_phase.candidates(mesh, cutter, slack), slack, distances, {});
   for (const cut::DetectedLine& line : found.lines) {
     const auto rest = rest_corners(mesh, line.ancestor);
     lines.emplace_back(interpolated(rest, line.a), interpolated(rest, line.b));
