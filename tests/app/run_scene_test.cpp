@@ -151,6 +151,22 @@ TEST_CASE("experiment 3: the moving edge separates the patch") {
   CHECK(run.mesh().topology_version > 10);
 }
 
+TEST_CASE("an overstretched cloth tears; without a limit the same cloth holds") {
+  Scene scene = experiment("tearing");
+  scene.frames = 40;
+  scene.output.picture_interval = 0;
+  SceneRun torn = start(scene);
+  finish(torn);
+  REQUIRE(torn.pieces().list.size() > 1);
+  CHECK(rendered_area(torn) == doctest::Approx(1.44));
+  CHECK(lowest_points(torn)[0] < -0.6);  // the largest piece falls
+
+  scene.tear_limit = 0;
+  SceneRun whole = start(scene);
+  finish(whole);
+  CHECK(whole.pieces().list.size() == 1);
+}
+
 TEST_CASE("a run is the same to the bit each time") {
   SceneRun first = start(experiment("moving_edge")), second = start(experiment("moving_edge"));
   finish(first);

@@ -229,6 +229,9 @@ TEST_CASE("a value out of range is named together with the range") {
   CHECK(error_with("\"frames\": -1") == "s.json:3: /frames: has to be from 1 to 10000000, is -1");
   CHECK(error_with("\"frames\": 18446744073709551615") ==
         "s.json:3: /frames: has to be from 1 to 10000000, is 18446744073709551615");
+  CHECK(error_with("\"material\": {\"tear_limit\": 1}") ==
+        "s.json:3: /material/tear_limit: has to be greater than 1: it is a length over the length without "
+        "tension");
   CHECK(error_with("\"material\": {\"stiffness\": -2}") ==
         "s.json:3: /material/stiffness: cannot be negative, is -2");
   CHECK(error_with("\"material\": {\"mass\": 1, \"density\": 1}") ==

@@ -86,6 +86,7 @@ struct Scene {
   MeshSource cloth;
   cut::Material material;
   std::optional<double> mass;  ///< of the whole cloth; given instead of material.density
+  double tear_limit = 0;       ///< length over rest length beyond which springs tear; 0: never
   std::string material_place;
   std::vector<Anchor> anchors;
   cut::Surroundings surroundings;

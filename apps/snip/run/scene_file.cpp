@@ -42,7 +42,7 @@ Eigen::AlignedBox3d read_box(const JsonValue& value) {
 }
 
 void read_material(const JsonValue& value, Scene& scene) {
-  value.allow_keys({"mode", "density", "mass", "stiffness", "damping"});
+  value.allow_keys({"mode", "density", "mass", "stiffness", "damping", "tear_limit"});
   scene.material_place = value.place();
   if (value.has("density") && value.has("mass")) value.fail("only one of density and mass can be given");
   take(value, "mode", scene.material.mode, [](const JsonValue& v) {
@@ -53,6 +53,9 @@ void read_material(const JsonValue& value, Scene& scene) {
   take(value, "mass", scene.mass, positive);
   take(value, "stiffness", scene.material.stiffness, not_negative);
   take(value, "damping", scene.material.damping, not_negative);
+  take(value, "tear_limit", scene.tear_limit, positive);
+  if (value.has("tear_limit") && !(scene.tear_limit > 1))
+    value.at("tear_limit").fail("has to be greater than 1: it is a length over the length without tension");
 }
 
 Anchor read_anchor(const JsonValue& value) {

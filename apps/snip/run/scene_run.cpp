@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cut/tearing.hpp>
 #include <numeric>
 #include <scenes/cutters.hpp>
 #include <utility>
@@ -116,7 +117,7 @@ Result<> SceneRun::load_cutters(const std::filesystem::path& folder) {
     if (!mesh) return mesh.error();
     cutter_meshes_.push_back(to_triangle_mesh(*mesh));
   }
-  for (std::size_t i = 0; i < scene_.cutters.size() + scene_.blades.size(); ++i)
+  for (std::size_t i = 0; i < scene_.cutters.size() + scene_.blades.size() + 1; ++i)
     cutters_.emplace_back(*distances);
   return {};
 }
@@ -169,7 +170,8 @@ Result<> SceneRun::cut_due(double from, double to) {
     const auto cut = cut_with(cutters_[scene_.cutters.size() + i], swept, blade.place);
     if (!cut) return cut;
   }
-  return {};
+  cut::Cutter& tearing = cutters_.back();
+  return cut_with(tearing, cut::tears(mesh_, scene_.tear_limit, tearing.distances()), scene_.material_place);
 }
 
 Result<> SceneRun::advance() {

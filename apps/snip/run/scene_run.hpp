@@ -63,7 +63,7 @@ class SceneRun {
   cut::HybridMesh mesh_;
   cut::Simulation simulation_;
   std::vector<cut::TriangleMesh> cutter_meshes_;
-  std::vector<cut::Cutter> cutters_;  // those of cutter_meshes_, then those of the blades
+  std::vector<cut::Cutter> cutters_;  // those of cutter_meshes_, then those of the blades, then one for tears
   cut::Pieces pieces_;
   PieceColours colours_;
   std::string warning_;

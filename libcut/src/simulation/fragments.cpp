@@ -10,17 +10,11 @@
 #include "cut/simulation.hpp"
 #include "lattice/sort_unique.hpp"
 #include "lattice/weights.hpp"
+#include "simulation/renders_corner.hpp"
 #include "simulation/rest_area.hpp"
 
 namespace cut {
 namespace {
-
-/// Whether a fragment's render polygon has corner i of its triangle.
-bool renders_corner(const Arrangement* arrangement, std::size_t polygon, std::size_t i) {
-  if (!arrangement) return true;
-  const auto& corners = arrangement->polygons[polygon].corners;
-  return std::any_of(corners.begin(), corners.end(), [&](const PolygonCorner& c) { return c.node == i; });
-}
 
 lattice::Moments moments_of(const Arrangement& arrangement, const RenderPolygon& polygon) {
   std::vector<LatticePoint> points;
