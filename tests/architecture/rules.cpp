@@ -29,7 +29,7 @@ const std::vector<Layer> layers{
     {"cutting", {"spatial", "base", "lattice", "mesh", "changes", "validate"}, {"cutter"}},
     {"simulation",
      {"spatial", "base", "lattice", "mesh", "changes"},
-     {"material", "simulation", "spring_blocks", "tearing"}},
+     {"material", "simulation", "spring_blocks", "surroundings", "tearing"}},
 };
 
 bool contains(const Names& names, std::string_view name) {

@@ -1,6 +1,7 @@
 /// @file
 /// Hybrid meshes for tests of the simulation, and cuts of a single triangle made by hand.
 #pragma once
+#include <array>
 #include <cut/changes.hpp>
 #include <cut/hybrid_mesh.hpp>
 #include <cut/simulation.hpp>
@@ -9,6 +10,9 @@
 #include <vector>
 
 namespace testing {
+
+inline constexpr std::array integrators{cut::Integrator::forward_euler, cut::Integrator::semi_implicit_euler,
+                                        cut::Integrator::implicit_euler};
 
 inline cut::HybridMesh built(const cut::TriangleMesh& mesh) {
   auto result = cut::HybridMesh::build(mesh);

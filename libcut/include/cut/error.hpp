@@ -21,6 +21,7 @@ struct Error {
     bad_merge_distances,  ///< δc ≥ δn ≥ δe > δf does not hold
     too_large,            ///< more elements than an index can count
     unstable,             ///< the simulation blew up
+    not_converged,        ///< an implicit step of the simulation found no solution
     bad_parameter         ///< any other value outside its range
   };
   Kind kind;

@@ -18,25 +18,9 @@
 #include "cut/hybrid_mesh.hpp"
 #include "cut/material.hpp"
 #include "cut/spring_blocks.hpp"
+#include "cut/surroundings.hpp"
 
 namespace cut {
-
-enum class Integrator : std::uint8_t {
-  forward_euler,       ///< equations 5 and 6: positions move on with the old velocity
-  semi_implicit_euler  ///< positions move on with the new velocity: conserves energy far better
-};
-
-/// What acts on the whole cloth; may change between any two steps.
-struct Surroundings {
-  Integrator integrator = Integrator::semi_implicit_euler;
-  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< acceleration [m/s²]
-  /// Force per area and speed relative to the air [N·s/m³], >= 0.
-  double air_drag = 0;
-  Eigen::Vector3d wind = Eigen::Vector3d::Zero();  ///< velocity of the air [m/s]
-  /// The longest way that a node may go in one step along x, y or z [m]; more is a blow-up. 0: the diagonal
-  /// of the tension-free mesh's bounding box.
-  double longest_way = 0;
-};
 
 struct Energy {
   double kinetic = 0;
@@ -52,6 +36,34 @@ struct alignas(32) PaddedVector {
 
 struct VelocityUpdate;
 
+/// The linear system of an implicit step (docs/simulation.md), and work space for solving it.
+struct ImplicitWork {
+  /// h²·(−∂f/∂p) + h·(−∂f/∂v) between the two ends of a spring: across·I + along·d·dᵀ, positive semidefinite.
+  struct Coupling {
+    double x, y, z;  ///< unit vector d from the first node to the second
+    double along, across;
+  };
+  /// Symmetric: xx, yy, zz, xy, yz, zx.
+  using Block = std::array<double, 6>;
+  /// A node that an obstacle holds.
+  struct Contact {
+    std::uint32_t node;
+    bool sticks;  ///< moves with the obstacle; else along its surface
+    double friction;
+    Eigen::Vector3d normal;
+    Eigen::Vector3d velocity;  ///< of a node that sticks; one that slides has its part along the normal
+    Eigen::Vector3d obstacle_velocity;
+    Eigen::Vector3d impulse;  ///< of friction on a node that slides
+  };
+  std::vector<Coupling> couplings;      ///< of all springs, one array after the other
+  std::vector<Block> blocks, inverses;  ///< per node: mass and drag; the inverse of that with the springs'
+  std::vector<PaddedVector> change, right, residual, preconditioned, direction, product;  ///< per node
+  std::vector<Contact> contacts;
+  std::vector<std::uint8_t> touched;  ///< per node: whether it is in `contacts`
+};
+
+class Obstacles;
+
 /// Moves a hybrid mesh in time.
 class Simulation {
  public:
@@ -63,11 +75,16 @@ class Simulation {
   /// not finite or out of range. O(mesh).
   [[nodiscard]] static Result<Simulation> build(const HybridMesh& mesh, const Material& material);
 
-  /// Moves the mesh on by `count` steps of `time_step` seconds each; calls mesh.moved(). O(count · mesh), no
-  /// allocation. Errors: bad_parameter for a time step that is not positive and finite, and for a mesh with
-  /// cuts that were not applied (nothing changes); unstable when a velocity stops being finite or a node goes
-  /// further than `longest_way`: the mesh then stands as it was before the failing step, which the message
-  /// names together with the node.
+  /// Moves the mesh on by `count` steps of `time_step` seconds each, and the obstacles; calls mesh.moved().
+  /// O(count · mesh), an implicit step times its iterations; allocates only in the first implicit step after
+  /// a cut, and where it meets more contacts than before. Nodes that start inside of an obstacle are put on
+  /// its surface.
+  ///
+  /// Errors: bad_parameter for a time step or surroundings out of range, and for a mesh with cuts that were
+  /// not applied (nothing changes); unstable when a position or velocity stops being finite or a node goes
+  /// further than `longest_way`, and not_converged when an implicit step finds no solution: mesh and
+  /// simulation then stand as they were before the failing step, which the message names together with the
+  /// node.
   [[nodiscard]] std::optional<Error> step(HybridMesh& mesh, double time_step, std::size_t count = 1);
 
   /// Takes over a cut: copies start with the velocity of their source, masses and springs follow the
@@ -128,8 +145,24 @@ class Simulation {
   void update_springs(const HybridMesh& mesh, AncestorEdgeId edge);
   void copy_nodes(const Changes& changes);
   void settle_springs();
-  [[nodiscard]] bool add_forces_and_replace_by_velocities(const VelocityUpdate& update);
   void take_over_fragments(const Changes& changes, const HybridMesh& mesh, std::size_t first_new_triangle);
+  [[nodiscard]] std::array<const SpringArrays*, 1> spring_lists() const { return {&springs_}; }
+  void find_air_forces(const HybridMesh& mesh);
+  [[nodiscard]] bool go_through_blocks(const HybridMesh& mesh, const VelocityUpdate* update);
+  std::optional<Error> explicit_velocities(const HybridMesh& mesh, double time_step, double speed_limit);
+  std::optional<Error> implicit_velocities(const HybridMesh& mesh, double time_step, double speed_limit,
+                                           const Obstacles& obstacles);
+  void set_up_system(const HybridMesh& mesh, double time_step);
+  void multiply(const std::vector<PaddedVector>& vector);
+  void leave_held(std::vector<PaddedVector>& vectors) const;
+  void find_residual();
+  std::optional<Error> solve();
+  bool update_contacts(const Obstacles& obstacles, double time_step, bool late);
+  void keep_out(const Obstacles& obstacles, std::vector<PaddedVector>& velocities) const;
+  [[nodiscard]] double contact_slack() const;
+  [[nodiscard]] std::optional<Error> unsound_velocity(double speed_limit) const;
+  [[nodiscard]] std::optional<Error> unsound_forces() const;
+  [[nodiscard]] Error not_solved(std::size_t iterations) const;
   [[nodiscard]] double time_step_limit(Integrator integrator, double stiffness_ratio,
                                        double damping_ratio) const;
 
@@ -145,6 +178,7 @@ class Simulation {
   std::vector<std::uint8_t> anchored_;
   std::vector<PaddedVector> velocities_;
   std::vector<PaddedVector> external_forces_;  ///< empty while none is set
+  std::vector<PaddedVector> air_forces_;       ///< work space of `step`
   std::vector<PaddedVector> positions_;        ///< work space of `step`
   std::vector<PaddedVector> forces_;           ///< work space of `step`
 
@@ -156,6 +190,7 @@ class Simulation {
   std::vector<std::uint8_t> sound_;  ///< work space of `step`, per block
   /// Per physics triangle: w_i of its three corners. Conserving mode only.
   std::vector<std::array<double, 3>> weights_;
+  ImplicitWork implicit_;  ///< empty while no implicit step was done
 };
 
 }  // namespace cut

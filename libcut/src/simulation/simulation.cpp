@@ -7,6 +7,7 @@
 #include <string>
 
 #include "mesh/vector3.hpp"
+#include "simulation/padded.hpp"
 
 namespace cut {
 namespace {
@@ -19,9 +20,6 @@ const char* fault_of(const Material& m) {
   if (!usable(m.damping)) return "the damping must be finite and not negative";
   return nullptr;
 }
-
-PaddedVector padded(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z(), 0}; }
-Eigen::Vector3d plain(const PaddedVector& v) { return {v.x, v.y, v.z}; }
 
 }  // namespace
 

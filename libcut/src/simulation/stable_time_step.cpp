@@ -15,8 +15,9 @@ namespace cut {
 
 double Simulation::time_step_limit(Integrator integrator, double stiffness_ratio,
                                    double damping_ratio) const {
+  if (integrator == Integrator::implicit_euler) return std::numeric_limits<double>::infinity();
   const double squared = 2 * stiffness_ratio;
-  const double drag = surroundings.air_drag / material_.density;
+  const double drag = (surroundings.air_drag + surroundings.normal_drag) / material_.density;
   const double damping = 2 * damping_ratio + drag;
   if (integrator == Integrator::semi_implicit_euler) {
     const double root = damping + std::sqrt(damping * damping + 4 * squared);

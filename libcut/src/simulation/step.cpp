@@ -3,73 +3,78 @@
 // last good state.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "cut/simulation.hpp"
+#include "mesh/vector3.hpp"
+#include "simulation/contact.hpp"
+#include "simulation/drag.hpp"
 #include "simulation/kernels.hpp"
+#include "simulation/padded.hpp"
 
 namespace cut {
 namespace {
 
-/// The first node whose velocity is beyond the limit. @pre there is one
-std::size_t first_unsound(const std::vector<PaddedVector>& velocities, double limit) {
-  const auto sound = [&](double v) { return std::abs(v) <= limit; };
-  std::size_t n = 0;
-  while (sound(velocities[n].x) && sound(velocities[n].y) && sound(velocities[n].z)) ++n;
-  return n;
+bool within(const PaddedVector& v, double limit) {
+  return std::abs(v.x) <= limit && std::abs(v.y) <= limit && std::abs(v.z) <= limit;
 }
 
-Error blow_up(std::uint64_t step, std::size_t node, bool finite) {
+/// The first vector with a component beyond the limit, or that is not a number.
+std::size_t first_beyond(const std::vector<PaddedVector>& vectors, double limit) {
+  const auto beyond = [&](const PaddedVector& v) { return !within(v, limit); };
+  return static_cast<std::size_t>(std::find_if(vectors.begin(), vectors.end(), beyond) - vectors.begin());
+}
+
+Error blow_up(std::uint64_t step, std::size_t node, const std::string& what) {
   return {Error::Kind::unstable,
-          "the simulation blew up in step " + std::to_string(step) + ": node " + std::to_string(node) +
-              (finite ? " went too far" : " has a velocity that is not finite") +
-              "; the state before that step is kept (is the time step below stable_time_step()?)",
+          "the simulation blew up in step " + std::to_string(step) + ": node " + std::to_string(node) + " " +
+              what + "; the state before that step is kept (is the time step below stable_time_step()?)",
           node};
+}
+
+/// What is wrong with the surroundings, or nothing.
+std::optional<Error> fault_of(const Surroundings& s, double time_step, double way) {
+  const auto wrong = [](const std::string& message, std::size_t element = 0) {
+    return Error{Error::Kind::bad_parameter, message, element};
+  };
+  const auto not_negative = [](double v) { return v >= 0 && std::isfinite(v); };
+  if (!(time_step > 0 && std::isfinite(time_step))) return wrong("the time step must be positive and finite");
+  if (!s.gravity.allFinite() || !s.wind.allFinite()) return wrong("gravity and wind must be finite");
+  if (!not_negative(s.air_drag) || !not_negative(s.normal_drag))
+    return wrong("drag must be finite and not negative");
+  if (!(s.tolerance > 0 && s.tolerance < 1)) return wrong("the tolerance must be between 0 and 1");
+  const auto fault_of_obstacle = [&](const auto& o, const Eigen::Vector3d& place, bool shape,
+                                     const std::string& name, std::size_t i) -> std::optional<Error> {
+    const std::string which = name + " " + std::to_string(i);
+    if (!shape || !place.allFinite()) return wrong(which + " has no sound shape or place", i);
+    if (!not_negative(o.friction))
+      return wrong("the friction of " + which + " must be finite and not negative", i);
+    if (!(o.velocity.allFinite() && o.velocity.cwiseAbs().maxCoeff() * time_step <= way))
+      return wrong(which + " goes further in one step than a node may", i);
+    return std::nullopt;
+  };
+  for (std::size_t i = 0; i < s.half_spaces.size(); ++i) {
+    const HalfSpace& o = s.half_spaces[i];
+    const double size = length(o.normal);
+    if (auto error = fault_of_obstacle(o, o.point, size > 0 && std::isfinite(size), "half-space", i))
+      return error;
+  }
+  for (std::size_t i = 0; i < s.spheres.size(); ++i) {
+    const Sphere& o = s.spheres[i];
+    if (auto error = fault_of_obstacle(o, o.centre, o.radius > 0 && std::isfinite(o.radius), "sphere", i))
+      return error;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
 
-/// Leaves the next velocities in `forces_`, one block of nodes after the other or at the same time.
-bool Simulation::add_forces_and_replace_by_velocities(const VelocityUpdate& update) {
-  const Kernels& kernels = best_kernels();
-  const std::vector<SpringBlock>& blocks = blocks_.blocks();
-  executor.for_each(blocks.size(), [&](std::size_t b) {
-    const SpringBlock& block = blocks[b];
-    const auto for_each_part = [&](const auto& visit) {
-      visit(block.first, block.last - block.first);
-      for (const std::uint32_t copy : block.copies) visit(copy, 1u);
-    };
-    for_each_part([&](std::uint32_t first, std::uint32_t count) {
-      if (external_forces_.empty())
-        std::fill_n(forces_.begin() + first, count, PaddedVector{});
-      else
-        std::copy_n(external_forces_.begin() + first, count, forces_.begin() + first);
-    });
-    kernels.add_spring_forces(block.inner, positions_.data(), velocities_.data(), forces_.data());
-    kernels.add_forces_at_first_node(block.outer, positions_.data(), velocities_.data(), forces_.data());
-    bool sound = true;
-    for_each_part([&](std::uint32_t first, std::uint32_t count) {
-      sound &= kernels.replace_by_velocities(update, {&inverse_mass_[first], count}, &velocities_[first],
-                                             &forces_[first]);
-    });
-    sound_[b] = sound ? 1 : 0;
-  });
-  return std::find(sound_.begin(), sound_.end(), 0) == sound_.end();
-}
-
 std::optional<Error> Simulation::step(HybridMesh& mesh, double time_step, std::size_t count) {
-  if (!(time_step > 0 && std::isfinite(time_step)))
-    return Error{Error::Kind::bad_parameter, "the time step must be positive and finite", 0};
+  const double way = surroundings.longest_way > 0 ? surroundings.longest_way : diagonal_;
+  if (auto error = fault_of(surroundings, time_step, way)) return error;
   if (mesh.topology_version != topology_version_ || mesh.positions.size() != mass_.size())
     return Error{Error::Kind::bad_parameter, "the mesh has cuts that the simulation was not told of", 0};
-
-  const double drag = surroundings.air_drag / material_.density;
-  const Eigen::Vector3d acceleration = surroundings.gravity + drag * surroundings.wind;
-  const double way = surroundings.longest_way > 0 ? surroundings.longest_way : diagonal_;
-  const VelocityUpdate update{
-      time_step, {acceleration.x(), acceleration.y(), acceleration.z(), 0}, drag, way / time_step};
-  const bool forward = surroundings.integrator == Integrator::forward_euler;
-  const Kernels& kernels = best_kernels();
   // Loops over nodes alone run over nodes in their order, a run for each block.
   const std::size_t runs = blocks_.blocks().size(), run = (positions_.size() + runs - 1) / runs;
   const auto for_each_run = [&](const auto& body) {
@@ -79,32 +84,130 @@ std::optional<Error> Simulation::step(HybridMesh& mesh, double time_step, std::s
       if (first < last) body(first, last);
     });
   };
-
   for_each_run([&](std::size_t first, std::size_t last) {
-    for (std::size_t n = first; n < last; ++n)
-      positions_[n] = {mesh.positions[n].x(), mesh.positions[n].y(), mesh.positions[n].z(), 0};
+    for (std::size_t n = first; n < last; ++n) positions_[n] = padded(mesh.positions[n]);
   });
-  std::optional<Error> error;
-  for (std::size_t i = 0; i < count && !error; ++i) {
-    if (add_forces_and_replace_by_velocities(update)) {
-      const PaddedVector* velocities = forward ? velocities_.data() : forces_.data();
-      for_each_run([&](std::size_t first, std::size_t last) {
-        kernels.move(time_step, {&positions_[first], last - first}, velocities + first);
-      });
-      velocities_.swap(forces_);
-      ++updates_;
-    } else {
-      const std::size_t node = first_unsound(forces_, update.speed_limit);
-      const PaddedVector& v = forces_[node];
-      error = blow_up(updates_ + 1, node, std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z));
-    }
+  if (const std::size_t n = first_beyond(positions_, largest_coordinate); n < positions_.size())
+    return blow_up(updates_ + 1, n, "has a position that is not finite or too large");
+
+  const Obstacles obstacles(surroundings, time_step, contact_slack());
+  const bool forward = surroundings.integrator == Integrator::forward_euler;
+  if (!obstacles.empty()) {
+    for (std::size_t n = 0; n < positions_.size(); ++n)
+      if (inverse_mass_[n] > 0) positions_[n] = padded(obstacles.put_out(plain(positions_[n])));
+    if (forward) keep_out(obstacles, velocities_);
   }
+  std::optional<Error> error;
+  std::size_t done = 0;
+  for (; done < count; ++done) {
+    error = surroundings.integrator == Integrator::implicit_euler
+                ? implicit_velocities(mesh, time_step, way / time_step, obstacles)
+                : explicit_velocities(mesh, time_step, way / time_step);
+    if (error) break;
+    if (!forward && !obstacles.empty()) keep_out(obstacles, forces_);
+    const PaddedVector* velocities = forward ? velocities_.data() : forces_.data();
+    for_each_run([&](std::size_t first, std::size_t last) {
+      best_kernels().move(time_step, {&positions_[first], last - first}, velocities + first);
+    });
+    velocities_.swap(forces_);
+    move_obstacles(surroundings, time_step);
+    if (forward && !obstacles.empty()) keep_out(obstacles, velocities_);
+    ++updates_;
+  }
+  if (done == 0) return error;
   for_each_run([&](std::size_t first, std::size_t last) {
-    for (std::size_t n = first; n < last; ++n)
-      mesh.positions[n] = {positions_[n].x, positions_[n].y, positions_[n].z};
+    for (std::size_t n = first; n < last; ++n) mesh.positions[n] = plain(positions_[n]);
   });
   mesh.moved();
   return error;
+}
+
+double Simulation::contact_slack() const { return 1e-12 * diagonal_; }
+
+/// Leaves in `air_forces_` external forces and those of air across the cloth.
+void Simulation::find_air_forces(const HybridMesh& mesh) {
+  if (external_forces_.empty())
+    air_forces_.assign(mass_.size(), {});
+  else
+    air_forces_ = external_forces_;
+  for_each_dragged_corner(mesh.buffers, positions_, weights_, surroundings.normal_drag,
+                          [&](std::size_t n, const Eigen::Vector3d& normal, double c) {
+                            const double speed = dot(plain(velocities_[n]) - surroundings.wind, normal);
+                            air_forces_[n] = air_forces_[n] - padded(c * speed * normal);
+                          });
+}
+
+/// Leaves in `forces_` the next velocities, or without an update what acts on each node but gravity and
+/// air_drag, which go with the mass; one block of nodes after the other or at the same time. Returns whether
+/// all velocities are sound.
+bool Simulation::go_through_blocks(const HybridMesh& mesh, const VelocityUpdate* update) {
+  const bool air = surroundings.normal_drag > 0;
+  if (air) find_air_forces(mesh);
+  const std::vector<PaddedVector>& given = air ? air_forces_ : external_forces_;
+  const Kernels& kernels = best_kernels();
+  const std::vector<SpringBlock>& blocks = blocks_.blocks();
+  executor.for_each(blocks.size(), [&](std::size_t b) {
+    const SpringBlock& block = blocks[b];
+    const auto for_each_part = [&](const auto& visit) {
+      visit(block.first, block.last - block.first);
+      for (const std::uint32_t copy : block.copies) visit(copy, 1u);
+    };
+    for_each_part([&](std::uint32_t first, std::uint32_t count) {
+      if (given.empty())
+        std::fill_n(forces_.begin() + first, count, PaddedVector{});
+      else
+        std::copy_n(given.begin() + first, count, forces_.begin() + first);
+    });
+    kernels.add_spring_forces(block.inner, positions_.data(), velocities_.data(), forces_.data());
+    kernels.add_forces_at_first_node(block.outer, positions_.data(), velocities_.data(), forces_.data());
+    bool sound = true;
+    if (update)
+      for_each_part([&](std::uint32_t first, std::uint32_t count) {
+        sound &= kernels.replace_by_velocities(*update, {&inverse_mass_[first], count}, &velocities_[first],
+                                               &forces_[first]);
+      });
+    sound_[b] = sound ? 1 : 0;
+  });
+  return std::find(sound_.begin(), sound_.end(), 0) == sound_.end();
+}
+
+/// Leaves the next velocities in `forces_`.
+std::optional<Error> Simulation::explicit_velocities(const HybridMesh& mesh, double time_step,
+                                                     double speed_limit) {
+  const double drag = surroundings.air_drag / material_.density;
+  const VelocityUpdate update{time_step, padded(surroundings.gravity + drag * surroundings.wind), drag,
+                              speed_limit};
+  if (go_through_blocks(mesh, &update)) return std::nullopt;
+  return unsound_velocity(speed_limit);
+}
+
+/// Names the first node whose next velocity is beyond the limit, if there is one.
+std::optional<Error> Simulation::unsound_velocity(double speed_limit) const {
+  const std::size_t node = first_beyond(forces_, speed_limit);
+  if (node == forces_.size()) return std::nullopt;
+  const bool finite = within(forces_[node], std::numeric_limits<double>::max());
+  return blow_up(updates_ + 1, node, finite ? "went too far" : "has a velocity that is not finite");
+}
+
+/// Names the first node with a force or velocity that is not finite: of these an implicit step would make
+/// velocities that all are not.
+std::optional<Error> Simulation::unsound_forces() const {
+  const double most = std::numeric_limits<double>::max();
+  for (std::size_t n = 0; n < forces_.size(); ++n) {
+    if (!within(velocities_[n], most)) return blow_up(updates_ + 1, n, "has a velocity that is not finite");
+    if (inverse_mass_[n] > 0 && !within(forces_[n], most))
+      return blow_up(updates_ + 1, n, "has a force that is not finite");
+  }
+  return std::nullopt;
+}
+
+/// Takes from the velocities of free nodes what would lead into an obstacle, and what friction takes. An
+/// implicit step has dealt with friction.
+void Simulation::keep_out(const Obstacles& obstacles, std::vector<PaddedVector>& velocities) const {
+  const bool with_friction = surroundings.integrator != Integrator::implicit_euler;
+  for (std::size_t n = 0; n < velocities.size(); ++n)
+    if (inverse_mass_[n] > 0)
+      velocities[n] = padded(obstacles.kept_out(plain(positions_[n]), plain(velocities[n]), with_friction));
 }
 
 }  // namespace cut
