@@ -15,20 +15,23 @@ void check() {
   using Leaf = spatial::detail::Leaf<Value, T, D>;
   for (const std::size_t rows : {D, 2 * D}) {
     for (std::size_t capacity = 1; capacity < 100; ++capacity) {
+      const std::size_t boxes = Leaf::boxes_offset(capacity, rows);
       const std::size_t ids = Leaf::ids_offset(capacity, rows);
       const std::size_t values = Leaf::values_offset(capacity, rows);
       CHECK(ids % alignof(std::uint32_t) == 0);
       CHECK(values % alignof(Value) == 0);
-      CHECK(ids >= rows * capacity * sizeof(T));
-      CHECK(values >= ids + capacity * sizeof(std::uint32_t));
-      CHECK(Leaf::bytes(capacity, rows) >= values + capacity * sizeof(Value));
+      CHECK(boxes % alignof(T) == 0);
+      CHECK(boxes >= sizeof(typename Leaf::FrameType) + rows * capacity);
+      CHECK(values >= boxes + rows * capacity * sizeof(T));
+      CHECK(ids >= values + capacity * sizeof(Value));
+      CHECK(Leaf::bytes(capacity, rows) >= ids + capacity * sizeof(std::uint32_t));
     }
   }
 }
 
 }  // namespace
 
-TEST_CASE("slot indices and values are aligned") {
+TEST_CASE("boxes, values and slot indices are aligned and apart") {
   check<int, std::uint8_t, 3>();
   check<char, std::int8_t, 1>();
   check<double, std::int16_t, 3>();

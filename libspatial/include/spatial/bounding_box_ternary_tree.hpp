@@ -152,7 +152,7 @@ class BoundingBoxTernaryTree {
   [[nodiscard]] size_type size() const { return core_.size(); }
   [[nodiscard]] bool empty() const { return core_.size() == 0; }
   /// The smallest box that encloses all elements, also after erasing; empty_box() of an empty tree. O(1),
-  /// except after erasing from a leaf of more than 192 elements.
+  /// except after erasing from a leaf of more than 384 elements.
   [[nodiscard]] box_type bounds() const { return core_.bounds(); }
 
   [[nodiscard]] const_iterator begin() const { return {core_, 0}; }

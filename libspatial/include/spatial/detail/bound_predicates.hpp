@@ -3,39 +3,57 @@
 ///   test(box, value)  does this element satisfy it?
 ///   may(box)          could an element inside of this box?        (prunes)
 ///   must(box)         does every element inside of this box?      (makes ! prune: what may not is what must
-///   be) hits(rows, values, count)  which of these elements do?        (the wide form of test) may_mask(rows,
-///   count)      which of these children may?       (the wide form of may)
+///   be)
+///   hits(leaf, begin, count)  which of these elements do?        (the wide form of test)
+///   may_mask(rows)            which of three children may?       (the wide form of may)
 /// In: predicate objects. Out: yes, no, or a bit per element.
 #pragma once
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 
 #include "../box.hpp"
 #include "../predicates.hpp"
+#include "cell.hpp"
 #include "holder.hpp"
 #include "lanes.hpp"
+#include "levels.hpp"
 
 namespace spatial::detail {
+
+/// Those of the elements in `bits` that satisfy a predicate.
+template <class Predicate, class Leaf>
+std::uint64_t passing(const Predicate& predicate, const Leaf& leaf, std::uint32_t begin, std::uint64_t bits) {
+  std::uint64_t result = 0;
+  const auto boxes = leaf.boxes();
+  const auto* values = leaf.values();
+  for (; bits != 0; bits &= bits - 1) {
+    const std::uint32_t at = begin + static_cast<std::uint32_t>(std::countr_zero(bits));
+    if (predicate.test(boxes[at], unwrap(values[at]))) result |= bits & (~bits + 1);
+  }
+  return result;
+}
 
 /// The wide forms in terms of the narrow ones.
 template <class Self, class T, std::size_t D>
 struct OneByOne {
-  [[nodiscard]] std::uint32_t may_mask(const Rows<T, D>& rows, std::size_t count) const {
+  [[nodiscard]] std::uint32_t may_mask(const Rows<T, D>& rows) const {
     std::uint32_t result = 0;
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < 3; ++i) {
       result |= static_cast<std::uint32_t>(self().may(rows.box(i))) << i;
     }
     return result;
   }
-  [[nodiscard]] std::uint32_t may_and_must(const Rows<T, D>& rows) const { return self().may_mask(rows, 3); }
-  template <class Value>
-  [[nodiscard]] std::uint32_t hits(const Rows<T, D>& rows, const Value* values, std::size_t count) const {
-    std::uint32_t result = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      result |= static_cast<std::uint32_t>(self().test(rows.box(i), unwrap(values[i]))) << i;
-    }
-    return result;
+  /// may_mask for three children; four bits higher, those of which nothing needs to be tested. That is asked
+  /// for where the predicate is_big.
+  [[nodiscard]] std::uint32_t may_and_must(const Rows<T, D>& rows, bool) const {
+    return self().may_mask(rows);
+  }
+  [[nodiscard]] bool is_big(const Box<T, D>&) const { return false; }
+  template <class Leaf>
+  [[nodiscard]] std::uint64_t hits(const Leaf& leaf, std::uint32_t begin, std::uint32_t count) const {
+    return passing(self(), leaf, begin, first_level_bits(count));
   }
 
  private:
@@ -96,31 +114,48 @@ class BoundRelation : public OneByOne<BoundRelation<R, T, D>, T, D> {
     if constexpr (R == Relation::within) return is_strictly_inside(node, q_);
     return false;
   }
-  [[nodiscard]] std::uint32_t may_mask(const Rows<T, D>& rows, std::size_t count) const {
+  [[nodiscard]] std::uint32_t may_mask(const Rows<T, D>& rows) const {
     if (!valid_) return 0;
-    if constexpr (R == Relation::covers || R == Relation::contains)
-      return reaching(rows, count, q_.max, q_.min);
-    return reaching(rows, count, q_.min, q_.max);
+    if constexpr (R == Relation::covers || R == Relation::contains) return reaching(rows, q_.max, q_.min);
+    return reaching(rows, q_.min, q_.max);
   }
-  [[nodiscard]] std::uint32_t may_and_must(const Rows<T, D>& rows) const {
-    if (!valid_) return 0;
+  [[nodiscard]] std::uint32_t may_and_must(const Rows<T, D>& rows, bool big) const {
+    const std::uint32_t may = may_mask(rows);
     if constexpr (R == Relation::intersects || R == Relation::covered_by) {
-      // A query that reaches one child only is rarely big enough to cover it.
-      const std::uint32_t may = reaching(rows, 3, q_.min, q_.max);
-      return (may & (may - 1)) == 0 ? may : may | covered(rows, 3, q_.min, q_.max) << 4;
+      if (big) return may | (may & covered(rows, q_.min, q_.max)) << 4;
     }
-    return may_mask(rows, 3);
+    return may;
   }
-  template <class Value>
-  [[nodiscard]] std::uint32_t hits(const Rows<T, D>& rows, const Value* values, std::size_t count) const {
+  /// A small query hardly covers a node, and the levels of a leaf are tested quickly.
+  [[nodiscard]] bool is_big(const Box<T, D>& root) const {
+    bool result = true;
+    for (std::size_t a = 0; a < D; ++a) {
+      const auto part = half_extent(root.min[a], root.max[a]) / 8;
+      result &= half_extent(q_.min[a], q_.max[a]) >= part;
+    }
+    return result;
+  }
+  /// The levels decide nearly all; what they leave open is tested.
+  template <class Leaf>
+  [[nodiscard]] std::uint64_t hits(const Leaf& leaf, std::uint32_t begin, std::uint32_t count) const {
     if (!valid_) return 0;
-    if constexpr (R == Relation::intersects) return reaching(rows, count, q_.min, q_.max);
-    if constexpr (R == Relation::covers) return reaching(rows, count, q_.max, q_.min);
-    if constexpr (R == Relation::covered_by) return covered(rows, count, q_.min, q_.max);
-    return OneByOne<BoundRelation, T, D>::hits(rows, values, count);
+    if constexpr (R == Relation::intersects || R == Relation::overlaps) {
+      return settle(leaf, begin, leaf.reaching(begin, count, q_.min, q_.max));
+    } else if constexpr (R == Relation::covers || R == Relation::contains) {
+      return settle(leaf, begin, leaf.reaching(begin, count, q_.max, q_.min));
+    } else {
+      return settle(leaf, begin, leaf.covered(begin, count, q_.min, q_.max));
+    }
   }
 
  private:
+  template <class Leaf>
+  [[nodiscard]] std::uint64_t settle(const Leaf& leaf, std::uint32_t begin, Sieved sieved) const {
+    // With overlaps alone, what is strictly inside may yet be a miss.
+    if constexpr (R == Relation::overlaps) sieved.sure = 0;
+    return sieved.open() == 0 ? sieved.sure : sieved.sure | passing(*this, leaf, begin, sieved.open());
+  }
+
   Box<T, D> q_;
   bool valid_;
 };
@@ -135,9 +170,7 @@ struct BoundValue : OneByOne<BoundValue<F, T, D>, T, D> {
   }
   [[nodiscard]] bool may(const Box<T, D>&) const { return true; }
   [[nodiscard]] bool must(const Box<T, D>&) const { return false; }
-  [[nodiscard]] std::uint32_t may_mask(const Rows<T, D>&, std::size_t count) const {
-    return first_bits(count);
-  }
+  [[nodiscard]] std::uint32_t may_mask(const Rows<T, D>&) const { return 7u; }
 };
 
 template <class F, class T, std::size_t D>
@@ -162,22 +195,19 @@ struct BoundAnd {
   }
   [[nodiscard]] bool may(const Box<T, D>& box) const { return a.may(box) && b.may(box); }
   [[nodiscard]] bool must(const Box<T, D>& box) const { return a.must(box) && b.must(box); }
-  [[nodiscard]] std::uint32_t may_mask(const Rows<T, D>& rows, std::size_t count) const {
-    std::uint32_t result = a.may_mask(rows, count);
-    for (std::size_t i = 0; i < count; ++i) {
+  [[nodiscard]] std::uint32_t may_mask(const Rows<T, D>& rows) const {
+    std::uint32_t result = a.may_mask(rows);
+    for (std::size_t i = 0; i < 3; ++i) {
       if (((result >> i) & 1u) != 0 && !b.may(rows.box(i))) result &= ~(1u << i);
     }
     return result;
   }
-  [[nodiscard]] std::uint32_t may_and_must(const Rows<T, D>& rows) const { return may_mask(rows, 3); }
+  [[nodiscard]] std::uint32_t may_and_must(const Rows<T, D>& rows, bool) const { return may_mask(rows); }
+  [[nodiscard]] bool is_big(const Box<T, D>&) const { return false; }
   /// The first one tests widely; the second one sees only what the first one has let through.
-  template <class Value>
-  [[nodiscard]] std::uint32_t hits(const Rows<T, D>& rows, const Value* values, std::size_t count) const {
-    std::uint32_t result = a.hits(rows, values, count);
-    for (std::size_t i = 0; i < count; ++i) {
-      if (((result >> i) & 1u) != 0 && !b.test(rows.box(i), unwrap(values[i]))) result &= ~(1u << i);
-    }
-    return result;
+  template <class Leaf>
+  [[nodiscard]] std::uint64_t hits(const Leaf& leaf, std::uint32_t begin, std::uint32_t count) const {
+    return passing(b, leaf, begin, a.hits(leaf, begin, count));
   }
 };
 

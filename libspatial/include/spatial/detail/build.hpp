@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -48,8 +49,8 @@ class Build {
   /// @pre every box is valid
   void run(std::vector<Entry>& entries) {
     if (entries.empty()) return;
-    std::vector<Entry> other(entries.size());
-    Entry* const buffers[2] = {entries.data(), other.data()};
+    const auto other = std::make_unique_for_overwrite<Entry[]>(entries.size());
+    Entry* const buffers[2] = {entries.data(), other.get()};
     std::vector<Task> tasks;
     const Box<T, D> all = bounds(entries.data(), entries.data() + entries.size());
     all_points_ = std::all_of(entries.begin(), entries.end(), [](const Entry& e) { return is_point(e.box); });
@@ -119,7 +120,7 @@ class Build {
     NodeType& node = nodes.back();
     node.cell = cell;
     node.plane = at.plane;
-    node.axis = static_cast<std::uint32_t>(at.axis);
+    node.axis = static_cast<std::uint8_t>(at.axis);
     node.parent = task.parent;
     node.side = static_cast<std::uint8_t>(task.side);
     node.compressed = compressed;
@@ -156,12 +157,9 @@ class Build {
     for (std::size_t i = begin; i < end; ++i) to[counts[sides[i - begin]]++] = from[i];
   }
 
-  // Tight boxes, from the leaves upwards: parents come before their children in `nodes`.
+  // Tight boxes, from the nodes above leaves upwards: parents come before their children in `nodes`.
   void tighten(const Box<T, D>& all) {
     root_box = all;
-    for (const LeafType& leaf : leaves) {
-      if (leaf.parent != none) nodes[leaf.parent].set_child_box(leaf.side, leaf.bounds());
-    }
     for (std::size_t i = nodes.size(); i-- > 0;) {
       const NodeType& node = nodes[i];
       if (node.parent != none) nodes[node.parent].set_child_box(node.side, node.bounds());
@@ -178,10 +176,14 @@ class Build {
     leaf.parent = task.parent;
     leaf.side = static_cast<std::uint8_t>(task.side);
     leaf.indivisible = count > Core::leaf_limit;
+    const Box<T, D> tight = bounds(entries, entries + count);
+    leaf.set_frame(Frame<T, D>::around(tight));
     for (std::uint32_t i = 0; i < count; ++i) {
       leaf.set_box(i, entries[i].box);
       leaf.ids()[i] = entries[i].id;
     }
+    leaf.beside = 0;
+    if (task.parent != none) nodes[task.parent].set_child_box(task.side, tight);
     attach(ChildRef::leaf(static_cast<std::uint32_t>(leaves.size() - 1)), task);
   }
 

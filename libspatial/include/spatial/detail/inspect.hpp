@@ -80,7 +80,6 @@ std::vector<const char*> validate(const Core& core) {
         require(!node.child[s].empty() || node.child_box(s) == empty_box<T, D>(),
                 "no child has the empty box");
       }
-      require(node.child_box(3) == empty_box<T, D>(), "the fourth lane is empty");
       require(children >= 2 || !node.child[centric].empty(), "only a centric child is alone");
       require(tight == node.bounds(), "a node's tight box is the union of its children's");
       require(node.cell.is_divisible(node.axis), "a node is split along a divisible axis");

@@ -1,7 +1,7 @@
 /// @file
-/// Tests one box against many at once. The many are given as rows of coordinates (leaf.hpp, node.hpp). In:
-/// rows and two bounds per axis. Out: one bit per box. Plain C++ where the compiler has no x86 vectors; same
-/// answer everywhere.
+/// Tests one box against many at once. The many are given as rows of coordinates (node.hpp, cell_grid.hpp).
+/// In: rows and two bounds per axis. Out: one bit per box. Plain C++ where the compiler has no x86 vectors;
+/// same answer everywhere.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -31,7 +31,6 @@ struct Rows {
     }
     return result;
   }
-  [[nodiscard]] Rows from(std::size_t i) const { return {first + i, stride, upper}; }
 };
 
 /// As many boxes as one mask has bits.
@@ -116,69 +115,53 @@ std::uint32_t below(const T* numbers, std::size_t count, T bound, bool or_equal)
   return result;
 }
 
-/// The boxes with min <= high and max >= low on every axis: with low, high = q.min, q.max those that touch q;
-/// with q.max, q.min those that cover it. @pre count <= mask_bits
+/// Of the boxes of a node's three children those with first[a] <= upper[a] and lower[a] <= second[a] on every
+/// axis, where row a of each begins at first + a * stride. Numbers beyond the third are readable up to a
+/// whole pack.
 template <class T, std::size_t D>
-std::uint32_t reaching(const Rows<T, D>& rows, std::size_t count, const Point<T, D>& low,
-                       const Point<T, D>& high) {
+std::uint32_t three_between(const T* first, const T* second, std::size_t stride, const Point<T, D>& upper,
+                            const Point<T, D>& lower) {
 #ifdef SPATIAL_WIDE
   if constexpr (Pack<T>::width != 0) {
     using P = Pack<T>;
     using V = typename P::V;
     std::uint32_t result = 0;
-    for (std::size_t i = 0; i < count; i += P::width) {
+    for (std::size_t i = 0; i < 3; i += P::width) {
       typename P::M inside{};
       for (std::size_t a = 0; a < D; ++a) {
-        V least, greatest;
-        std::memcpy(&least, rows.low(a) + i, sizeof(V));
-        std::memcpy(&greatest, rows.high(a) + i, sizeof(V));
-        const auto both = (least <= high[a]) & (greatest >= low[a]);
+        V x, y;
+        std::memcpy(&x, first + a * stride + i, sizeof(V));
+        std::memcpy(&y, second + a * stride + i, sizeof(V));
+        const auto both = (x <= upper[a]) & (y >= lower[a]);
         inside = a == 0 ? both : inside & both;
       }
       result |= P::bits(inside) << i;
     }
-    return result & first_bits(count);
+    return result & 7u;
   }
 #endif
   std::uint32_t result = 0;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < 3; ++i) {
     bool inside = true;
-    for (std::size_t a = 0; a < D; ++a) inside &= rows.min(a, i) <= high[a] && rows.max(a, i) >= low[a];
+    for (std::size_t a = 0; a < D; ++a) {
+      inside &= first[a * stride + i] <= upper[a] && second[a * stride + i] >= lower[a];
+    }
     result |= static_cast<std::uint32_t>(inside) << i;
   }
   return result;
 }
 
-/// The boxes with low <= min and max <= high on every axis. @pre count <= mask_bits
+/// The children with min <= high and max >= low on every axis: with low, high = q.min, q.max those that touch
+/// q; with q.max, q.min those that cover it.
 template <class T, std::size_t D>
-std::uint32_t covered(const Rows<T, D>& rows, std::size_t count, const Point<T, D>& low,
-                      const Point<T, D>& high) {
-#ifdef SPATIAL_WIDE
-  if constexpr (Pack<T>::width != 0) {
-    using P = Pack<T>;
-    using V = typename P::V;
-    std::uint32_t result = 0;
-    for (std::size_t i = 0; i < count; i += P::width) {
-      typename P::M inside{};
-      for (std::size_t a = 0; a < D; ++a) {
-        V least, greatest;
-        std::memcpy(&least, rows.low(a) + i, sizeof(V));
-        std::memcpy(&greatest, rows.high(a) + i, sizeof(V));
-        const auto both = (least >= low[a]) & (greatest <= high[a]);
-        inside = a == 0 ? both : inside & both;
-      }
-      result |= P::bits(inside) << i;
-    }
-    return result & first_bits(count);
-  }
-#endif
-  std::uint32_t result = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    bool inside = true;
-    for (std::size_t a = 0; a < D; ++a) inside &= rows.min(a, i) >= low[a] && rows.max(a, i) <= high[a];
-    result |= static_cast<std::uint32_t>(inside) << i;
-  }
-  return result;
+std::uint32_t reaching(const Rows<T, D>& rows, const Point<T, D>& low, const Point<T, D>& high) {
+  return three_between<T, D>(rows.low(0), rows.high(0), rows.stride, high, low);
+}
+
+/// The children with low <= min and max <= high on every axis.
+template <class T, std::size_t D>
+std::uint32_t covered(const Rows<T, D>& rows, const Point<T, D>& low, const Point<T, D>& high) {
+  return three_between<T, D>(rows.high(0), rows.low(0), rows.stride, high, low);
 }
 
 /// The points with a squared distance of at most `bound` from `point`; row r begins at rows + r * stride.

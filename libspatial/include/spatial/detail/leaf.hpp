@@ -1,15 +1,17 @@
 /// @file
-/// The elements of one leaf (§5.1), packed: one row per lower and per upper coordinate, then the slot
-/// indices, then the values, in one block of memory. A query tests a row with wide instructions and touches
-/// the values of hits only. A leaf of points has each coordinate once: its upper rows are its lower rows.
+/// The elements of one leaf (§5.1), packed in one block of memory: a frame and the levels of all boxes
+/// (levels.hpp), which a query looks at first; then the boxes, the values, and the slot indices. A leaf of
+/// points has each coordinate once.
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <new>
 #include <utility>
 
 #include "../box.hpp"
+#include "levels.hpp"
 
 namespace spatial::detail {
 
@@ -17,73 +19,177 @@ namespace spatial::detail {
 template <class Value, class T, std::size_t D>
 struct Leaf {
   static constexpr std::uint32_t no_parent = 0xffffffffu;
+  using FrameType = Frame<T, D>;
 
   std::byte* data = nullptr;
   std::uint32_t count = 0;
   std::uint32_t capacity = 0;
   std::uint32_t parent = no_parent;  ///< node; the next free leaf while this one is free
   std::uint32_t loose = 0;           ///< erasures since the tight box was last computed from all elements
+  std::uint32_t beside = 0;          ///< boxes written since the frame was made that it does not hold
   std::uint8_t side = 0;             ///< which child of the parent
+  std::uint8_t frame_age = 0;        ///< splits since the frame was made
   bool indivisible = false;          ///< no split can separate what is here, unless the tight box grows
   std::uint8_t rows = 2 * D;         ///< D if all boxes here are points, and were when the block was made
 
-  // Wide reads may run past a row's end: into the next row, or into this much after the last one.
-  static constexpr std::size_t overread = 64;
   static constexpr std::size_t alignment = alignof(Value) > 16 ? alignof(Value) : 16;
+  static_assert(alignof(T) <= level_block);
 
-  static constexpr std::size_t ids_offset(std::size_t cap, std::size_t row_count) {
-    constexpr std::size_t step = alignof(std::uint32_t);  // rows of small integers may end between two
-    return (row_count * cap * sizeof(T) + step - 1) / step * step;
+  static constexpr std::size_t up_to(std::size_t offset, std::size_t step) {
+    return (offset + step - 1) / step * step;
+  }
+  static constexpr std::size_t levels_offset() { return up_to(sizeof(FrameType), level_block); }
+  static constexpr std::size_t boxes_offset(std::size_t cap, std::size_t row_count) {
+    return levels_offset() + up_to(cap, level_block) * row_count;
   }
   static constexpr std::size_t values_offset(std::size_t cap, std::size_t row_count) {
-    const std::size_t end = ids_offset(cap, row_count) + cap * sizeof(std::uint32_t);
-    return (end + alignof(Value) - 1) / alignof(Value) * alignof(Value);
+    return up_to(boxes_offset(cap, row_count) + row_count * cap * sizeof(T), alignof(Value));
+  }
+  static constexpr std::size_t ids_offset(std::size_t cap, std::size_t row_count) {
+    return up_to(values_offset(cap, row_count) + cap * sizeof(Value), alignof(std::uint32_t));
   }
   static constexpr std::size_t bytes(std::size_t cap, std::size_t row_count) {
-    const std::size_t used = values_offset(cap, row_count) + cap * sizeof(Value);
-    const std::size_t readable = ids_offset(cap, row_count) + overread;
-    return ((used > readable ? used : readable) + alignment - 1) / alignment * alignment;
+    return up_to(ids_offset(cap, row_count) + cap * sizeof(std::uint32_t), alignment);
   }
 
   /// True if only boxes with min == max have room here.
   [[nodiscard]] bool is_flat() const { return rows == D; }
-  [[nodiscard]] T* min_row(std::size_t axis) const { return reinterpret_cast<T*>(data) + axis * capacity; }
-  [[nodiscard]] T* max_row(std::size_t axis) const { return min_row(rows - D + axis); }
+  [[nodiscard]] FrameType& frame() const { return *reinterpret_cast<FrameType*>(data); }
+  [[nodiscard]] Level* levels(std::size_t begin) const {  ///< @pre begin is a multiple of level_block
+    return reinterpret_cast<Level*>(data) + levels_offset() + begin * rows;
+  }
+  /// The levels of one element, level_block apart.
+  [[nodiscard]] Level* level_column(std::size_t at) const {
+    return levels(at / level_block * level_block) + at % level_block;
+  }
   [[nodiscard]] std::uint32_t* ids() const {
     return reinterpret_cast<std::uint32_t*>(data + ids_offset(capacity, rows));
   }
   [[nodiscard]] Value* values() const {
     return reinterpret_cast<Value*>(data + values_offset(capacity, rows));
   }
+  /// The lower coordinates of an element; its upper ones begin `rows - D` later.
+  [[nodiscard]] T* coordinates(std::size_t at) const {
+    return reinterpret_cast<T*>(data + boxes_offset(capacity, rows)) + at * rows;
+  }
 
-  [[nodiscard]] Box<T, D> box(std::size_t at) const {
-    Box<T, D> result;
+  /// The boxes alone, for loops.
+  struct Boxes {
+    const T* first;
+    std::size_t rows;
+    [[nodiscard]] const T* coordinates(std::size_t at) const { return first + at * rows; }
+    [[nodiscard]] Box<T, D> operator[](std::size_t at) const {
+      Box<T, D> result;
+      const T* from = coordinates(at);
+      const T* high = from + rows - D;
+      for (std::size_t a = 0; a < D; ++a) {
+        result.min[a] = from[a];
+        result.max[a] = high[a];
+      }
+      return result;
+    }
+  };
+  [[nodiscard]] Boxes boxes() const { return {coordinates(0), rows}; }
+  [[nodiscard]] Box<T, D> box(std::size_t at) const { return boxes()[at]; }
+  void set_frame(const FrameType& made) {
+    ::new (static_cast<void*>(data)) FrameType(made);
+    beside = 0;
+    frame_age = 0;
+  }
+  void inherit_frame(const Leaf& from) {
+    ::new (static_cast<void*>(data)) FrameType(from.frame());
+    beside = from.beside;
+    frame_age = static_cast<std::uint8_t>(from.frame_age + 1);
+  }
+  /// @pre the leaf has a frame; a flat leaf gets points
+  void set_box(std::size_t at, const Box<T, D>& box) {
+    T* to = coordinates(at);
+    T* high = to + rows - D;
     for (std::size_t a = 0; a < D; ++a) {
-      result.min[a] = min_row(a)[at];
-      result.max[a] = max_row(a)[at];
+      to[a] = box.min[a];
+      high[a] = box.max[a];
+    }
+    set_levels(at, box);
+  }
+  void set_levels(std::size_t at, const Box<T, D>& box) {
+    const LevelBounds<D> own = frame().bounds(box.min, box.max);
+    Level* to = level_column(at);
+    Level* high = to + (rows - D) * level_block;
+    bool is_beside = false;
+    for (std::size_t a = 0; a < D; ++a) {
+      to[a * level_block] = own.low[a];
+      high[a * level_block] = own.high[a];
+      is_beside |= own.low[a] == -128 || own.high[a] == 127;
+    }
+    beside += static_cast<std::uint32_t>(is_beside);
+  }
+  /// Element `to` gets the box of an element of a leaf with the same frame and the same number of rows.
+  void copy_box(const Leaf& source, std::size_t from, std::size_t to) {
+    is_flat() ? copy_rows<D>(source, from, to) : copy_rows<2 * D>(source, from, to);
+  }
+  template <std::size_t N>
+  void copy_rows(const Leaf& source, std::size_t from, std::size_t to) {
+    std::memcpy(coordinates(to), source.coordinates(from), N * sizeof(T));
+    const Level* old = source.level_column(from);
+    Level* fresh = level_column(to);
+    for (std::size_t r = 0; r < N; ++r) fresh[r * level_block] = old[r * level_block];
+  }
+  /// All boxes, levels and slot indices of another leaf; its frame, unless only this one has room for boxes.
+  /// @pre there is room, and none here
+  void copy_all(const Leaf& from) {
+    if (from.count == 0) return;
+    inherit_frame(from);
+    frame_age = from.frame_age;
+    std::memcpy(ids(), from.ids(), from.count * sizeof(std::uint32_t));
+    if (rows == from.rows) {
+      std::memcpy(levels(0), from.levels(0), up_to(from.count, level_block) * rows);
+      std::memcpy(coordinates(0), from.coordinates(0), from.count * rows * sizeof(T));
+    } else {
+      for (std::size_t i = 0; i < from.count; ++i) set_box(i, from.box(i));
+    }
+  }
+  /// A frame that many boxes are beside lets too much through.
+  [[nodiscard]] bool has_old_frame() const { return beside > count / 2 + 4; }
+  void make_new_frame(const Box<T, D>& tight) {
+    set_frame(FrameType::around(tight));
+    const Boxes all = boxes();
+    for (std::size_t i = 0; i < count; ++i) set_levels(i, all[i]);
+    beside = 0;
+  }
+
+  /// The elements of [begin, begin + n) with min <= high and max >= low on every axis: with low, high =
+  /// q.min, q.max those that touch q; with q.max, q.min those that cover it. @pre n <= level_bits
+  template <class X>
+  [[nodiscard]] Sieved reaching(std::uint32_t begin, std::uint32_t n, const X& low, const X& high) const {
+    return reaching(begin, n, frame().bounds(low, high));
+  }
+  [[nodiscard]] Sieved reaching(std::uint32_t begin, std::uint32_t n, const LevelBounds<D>& q) const {
+    return is_flat() ? sieve<D>(levels(begin), D, 0, 0, n, q.high, q.low)
+                     : sieve<D>(levels(begin), 2 * D, 0, D, n, q.high, q.low);
+  }
+  /// Those with low <= min and max <= high.
+  template <class X>
+  [[nodiscard]] Sieved covered(std::uint32_t begin, std::uint32_t n, const X& low, const X& high) const {
+    const LevelBounds<D> q = frame().bounds(low, high);
+    return is_flat() ? sieve<D>(levels(begin), D, 0, 0, n, q.high, q.low)
+                     : sieve<D>(levels(begin), 2 * D, D, 0, n, q.high, q.low);
+  }
+  /// The levels of one element.
+  [[nodiscard]] LevelBounds<D> own_levels(std::size_t at) const {
+    const Level* from = level_column(at);
+    const Level* high = from + (rows - D) * level_block;
+    LevelBounds<D> result;
+    for (std::size_t a = 0; a < D; ++a) {
+      result.low[a] = from[a * level_block];
+      result.high[a] = high[a * level_block];
     }
     return result;
   }
-  void set_box(std::size_t at, const Box<T, D>& box) {
-    for (std::size_t a = 0; a < D; ++a) {
-      min_row(a)[at] = box.min[a];
-      max_row(a)[at] = box.max[a];
-    }
-  }
+
   [[nodiscard]] Box<T, D> bounds() const {
-    Box<T, D> result;
-    for (std::size_t a = 0; a < D; ++a) {
-      const T* low = min_row(a);
-      const T* high = max_row(a);
-      T least = low[0];
-      T greatest = high[0];
-      for (std::size_t i = 1; i < count; ++i) {
-        least = low[i] < least ? low[i] : least;
-        greatest = high[i] > greatest ? high[i] : greatest;
-      }
-      result.min[a] = least;
-      result.max[a] = greatest;
-    }
+    const Boxes all = boxes();
+    Box<T, D> result = all[0];
+    for (std::size_t i = 1; i < count; ++i) extend(result, all[i]);
     return result;
   }
 };

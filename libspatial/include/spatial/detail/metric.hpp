@@ -11,12 +11,9 @@
 #include "../box.hpp"
 #include "../predicates.hpp"
 #include "lanes.hpp"
+#include "levels.hpp"
 
 namespace spatial::detail {
-
-/// Distances of integers are computed in double.
-template <class T>
-using DistanceOf = std::conditional_t<std::is_floating_point_v<T>, T, double>;
 
 /// Room for the keys of one mask of boxes, and what a wide write adds to them.
 inline constexpr std::size_t keys_room = mask_bits + 8;
@@ -82,6 +79,40 @@ class BoxMetric {
       }
     }
   }
+  /// The key of one box.
+  [[nodiscard]] S key(const Box<T, D>& box) const {
+    S sum = valid_ ? S{0} : never;
+    for (std::size_t a = 0; a < D; ++a) {
+      const S above = static_cast<S>(box.min[a]) - static_cast<S>(q_.max[a]);
+      const S below = static_cast<S>(q_.min[a]) - static_cast<S>(box.max[a]);
+      const S outside = above > below ? above : below;
+      const S gap = outside > 0 ? outside : S{0};
+      sum += gap * gap;
+    }
+    return sum;
+  }
+  /// That of a point. @pre is_point()
+  [[nodiscard]] S point_key(const T* point) const {
+    S sum{};
+    for (std::size_t a = 0; a < D; ++a) {
+      const S gap = static_cast<S>(point[a]) - static_cast<S>(q_.min[a]);
+      sum += gap * gap;
+    }
+    return sum;
+  }
+  [[nodiscard]] bool has_point_keys() const { return point_; }
+  /// Every box with a key of at most `worst` reaches into [low, high], with some room for what is rounded.
+  static constexpr bool has_reach = true;
+  void reach(S worst, Point<S, D>& low, Point<S, D>& high) const {
+    constexpr S slack = 8 * std::numeric_limits<S>::epsilon();
+    const S radius = std::sqrt(worst) * (1 + slack) + 2 * std::sqrt(std::numeric_limits<S>::min());
+    for (std::size_t a = 0; a < D; ++a) {
+      const S least = static_cast<S>(q_.min[a]) - radius;
+      const S greatest = static_cast<S>(q_.max[a]) + radius;
+      low[a] = least - std::abs(least) * slack;
+      high[a] = greatest + std::abs(greatest) * slack;
+    }
+  }
   /// On which side of a plane to look first.
   [[nodiscard]] bool is_higher(std::size_t axis, T plane) const { return q_.min[axis] > plane; }
   [[nodiscard]] static S distance(S key) { return std::sqrt(key); }
@@ -138,6 +169,28 @@ class PathMetric {
     }
     for (std::size_t i = 0; i < count; ++i) keys[i] = keys[i] <= leave[i] ? keys[i] : never;
   }
+  [[nodiscard]] S key(const Box<T, D>& box) const {
+    S enter = valid_ ? S{0} : never;
+    S leave = limit_;
+    for (std::size_t a = 0; a < D; ++a) {
+      const S low = static_cast<S>(box.min[a]);
+      const S high = static_cast<S>(box.max[a]);
+      const S o = origin_[a];
+      const S d = direction_[a];
+      if (d == 0) {
+        if (!(low <= o && o <= high)) return never;
+        continue;
+      }
+      const S in = ((d > 0 ? low : high) - o) / d;
+      const S out = ((d > 0 ? high : low) - o) / d;
+      enter = in > enter ? in : enter;
+      leave = out < leave ? out : leave;
+    }
+    return enter <= leave ? enter : never;
+  }
+  static constexpr bool has_reach = false;
+  [[nodiscard]] S point_key(const T*) const { return never; }
+  [[nodiscard]] static constexpr bool has_point_keys() { return false; }
   [[nodiscard]] bool is_higher(std::size_t axis, T plane) const {
     return origin_[axis] > static_cast<S>(plane);
   }

@@ -21,27 +21,28 @@ struct ChildRef {
   static constexpr ChildRef node(std::uint32_t index) { return {index}; }
   static constexpr ChildRef leaf(std::uint32_t index) { return {index | leaf_bit}; }
   [[nodiscard]] constexpr bool empty() const { return bits == none; }
+  [[nodiscard]] constexpr bool is_node() const { return bits < inside_bit; }
   [[nodiscard]] constexpr bool is_leaf() const { return (bits & leaf_bit) != 0; }  ///< @pre !empty()
   [[nodiscard]] constexpr bool is_inside() const { return (bits & inside_bit) != 0; }
   [[nodiscard]] constexpr std::uint32_t index() const { return bits & ~(leaf_bit | inside_bit); }
   friend constexpr bool operator==(ChildRef, ChildRef) = default;
 };
 
-/// On a cache line of its own, with the rows first: a query reads these and the children, an insertion the
-/// rest.
+/// On cache lines of its own, with the rows first: a query reads these and the children, an insertion the
+/// children and the plane. Wide reads run past the end of a row, and of the last one into the children.
 template <class T, std::size_t D>
 struct alignas(64) Node {
-  static constexpr std::size_t lanes = 4;  ///< three children, and one that is always empty
+  static constexpr std::size_t lanes = 3;  ///< the children
 
   T rows[2 * D][lanes];  ///< tight boxes: min[row] of each child for row < D, then max[row - D]
+  ChildRef child[3];
   T plane{};
-  std::uint32_t axis = 0;
-  std::uint32_t parent = 0;  ///< the next free node while this one is free
-  std::uint8_t side = 0;     ///< which child of the parent
+  std::uint8_t axis = 0;
+  std::uint8_t side = 0;  ///< which child of the parent
   /// The volume is smaller than the parent's child volume: volumes that would have had one child were left
   /// out.
   bool compressed = false;
-  ChildRef child[3];
+  std::uint32_t parent = 0;  ///< the next free node while this one is free
   Cell<T, D> cell;
 
   [[nodiscard]] Split<T, D> split() const { return {axis, plane}; }

@@ -96,15 +96,10 @@ class OrderedCursor {
   }
   void open_leaf(ChildRef place) {
     const auto& leaf = core_->leaf(place.index());
-    S keys[keys_room];
-    for (std::uint32_t begin = 0; begin < leaf.count; begin += mask_bits) {
-      const std::uint32_t count = leaf.count - begin < mask_bits ? leaf.count - begin : mask_bits;
-      metric_.keys(rows_of<Core>(leaf).from(begin), count, keys);
-      for (std::uint32_t i = 0; i < count; ++i) {
-        const std::uint32_t at = begin + i;
-        if (keys[i] != keys[i] || !filter_.test(leaf.box(at), unwrap(leaf.values()[at]))) continue;
-        push({keys[i], place, at});
-      }
+    for (std::uint32_t at = 0; at < leaf.count; ++at) {
+      const S key = metric_.key(leaf.box(at));
+      if (key != key || !filter_.test(leaf.box(at), unwrap(leaf.values()[at]))) continue;
+      push({key, place, at});
     }
   }
   void push(const Found<S>& item) {
@@ -273,16 +268,28 @@ void visit_first(const Core& core, const Metric& metric, const Filter& filter, s
       continue;
     }
     const auto& leaf = core.leaf(here.place.index());
-    for (std::uint32_t begin = 0; begin < leaf.count && best.wants(here.key); begin += mask_bits) {
-      const std::uint32_t count = leaf.count - begin < mask_bits ? leaf.count - begin : mask_bits;
-      metric.keys(rows_of<Core>(leaf).from(begin), count, keys);
-      std::uint32_t near = below(keys, count, best.worst(), !best.full());
+    const auto boxes = leaf.boxes();
+    const bool point_keys = leaf.is_flat() && metric.has_point_keys();
+    std::uint32_t step = 0;
+    for (std::uint32_t begin = 0; begin < leaf.count && best.wants(here.key); begin += step) {
+      // Once there are enough, the levels tell what is too far. Until then, some are looked at.
+      const bool sieved = Metric::has_reach && best.full();
+      const std::uint32_t most = sieved ? level_bits : static_cast<std::uint32_t>(level_block);
+      step = leaf.count - begin < most ? leaf.count - begin : most;
+      std::uint64_t near = first_level_bits(step);
+      if constexpr (Metric::has_reach) {
+        if (sieved) {
+          Point<S, Core::dimension> low, high;
+          metric.reach(best.worst(), low, high);
+          near = leaf.reaching(begin, step, low, high).maybe;
+        }
+      }
       for (; near != 0; near &= near - 1) {
-        const auto i = static_cast<std::uint32_t>(std::countr_zero(near));
-        const std::uint32_t at = begin + i;
-        if (!best.wants(keys[i])) continue;
-        if (!all_pass && !filter.test(leaf.box(at), unwrap(leaf.values()[at]))) continue;
-        best.add({keys[i], here.place, at});
+        const std::uint32_t at = begin + static_cast<std::uint32_t>(std::countr_zero(near));
+        const S key = point_keys ? metric.point_key(boxes.coordinates(at)) : metric.key(boxes[at]);
+        if (!best.wants(key)) continue;
+        if (!all_pass && !filter.test(boxes[at], unwrap(leaf.values()[at]))) continue;
+        best.add({key, here.place, at});
       }
     }
   }

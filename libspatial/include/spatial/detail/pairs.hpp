@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "lanes.hpp"
+#include "levels.hpp"
 #include "node.hpp"
 #include "search.hpp"
 #include "small_stack.hpp"
@@ -21,19 +22,33 @@ Box<typename Core::Scalar, Core::dimension> tight_box(const Core& core, ChildRef
   return core.node(parent).child_box(side);
 }
 
+/// What touches a box, of what its levels have let through.
+template <class Leaf, class T, std::size_t D>
+std::uint64_t touching(const Leaf& leaf, std::uint32_t begin, const Box<T, D>& box, const Sieved& sieved) {
+  std::uint64_t result = sieved.sure;
+  const auto boxes = leaf.boxes();
+  for (std::uint64_t open = sieved.open(); open != 0; open &= open - 1) {
+    const auto at = begin + static_cast<std::uint32_t>(std::countr_zero(open));
+    if (touch(boxes[at], box)) result |= open & (~open + 1);
+  }
+  return result;
+}
+
 /// Pairs between two leaves. `visit(leaf, position, leaf, position)` returns whether to go on.
 template <class CoreA, class CoreB, class Visit>
 bool leaf_pairs(const typename CoreA::LeafType& a, const typename CoreB::LeafType& b,
                 const Box<typename CoreB::Scalar, CoreB::dimension>& tight_b, Visit& visit) {
-  for (std::uint32_t begin_a = 0; begin_a < a.count; begin_a += mask_bits) {
-    const std::uint32_t count_a = a.count - begin_a < mask_bits ? a.count - begin_a : mask_bits;
-    std::uint32_t near = reaching(rows_of<CoreA>(a).from(begin_a), count_a, tight_b.min, tight_b.max);
+  const auto boxes = a.boxes();
+  for (std::uint32_t begin_a = 0; begin_a < a.count; begin_a += level_bits) {
+    const std::uint32_t count_a = a.count - begin_a < level_bits ? a.count - begin_a : level_bits;
+    std::uint64_t near = a.reaching(begin_a, count_a, tight_b.min, tight_b.max).maybe;
     for (; near != 0; near &= near - 1) {
       const std::uint32_t i = begin_a + static_cast<std::uint32_t>(std::countr_zero(near));
-      const auto box = a.box(i);
-      for (std::uint32_t begin_b = 0; begin_b < b.count; begin_b += mask_bits) {
-        const std::uint32_t count_b = b.count - begin_b < mask_bits ? b.count - begin_b : mask_bits;
-        std::uint32_t hits = reaching(rows_of<CoreB>(b).from(begin_b), count_b, box.min, box.max);
+      const auto box = boxes[i];
+      const auto levels = b.frame().bounds(box.min, box.max);
+      for (std::uint32_t begin_b = 0; begin_b < b.count; begin_b += level_bits) {
+        const std::uint32_t count_b = b.count - begin_b < level_bits ? b.count - begin_b : level_bits;
+        std::uint64_t hits = touching(b, begin_b, box, b.reaching(begin_b, count_b, levels));
         for (; hits != 0; hits &= hits - 1) {
           if (!visit(a, i, b, begin_b + static_cast<std::uint32_t>(std::countr_zero(hits)))) return false;
         }
@@ -46,11 +61,13 @@ bool leaf_pairs(const typename CoreA::LeafType& a, const typename CoreB::LeafTyp
 /// Pairs within one leaf, the later element first.
 template <class Core, class Visit>
 bool leaf_self_pairs(const typename Core::LeafType& leaf, Visit& visit) {
+  const auto boxes = leaf.boxes();
   for (std::uint32_t i = 1; i < leaf.count; ++i) {
-    const auto box = leaf.box(i);
-    for (std::uint32_t begin = 0; begin < i; begin += mask_bits) {
-      const std::uint32_t count = i - begin < mask_bits ? i - begin : mask_bits;
-      std::uint32_t hits = reaching(rows_of<Core>(leaf).from(begin), count, box.min, box.max);
+    const auto box = boxes[i];
+    const auto levels = leaf.own_levels(i);
+    for (std::uint32_t begin = 0; begin < i; begin += level_bits) {
+      const std::uint32_t count = i - begin < level_bits ? i - begin : level_bits;
+      std::uint64_t hits = touching(leaf, begin, box, leaf.reaching(begin, count, levels));
       for (; hits != 0; hits &= hits - 1) {
         if (!visit(leaf, i, leaf, begin + static_cast<std::uint32_t>(std::countr_zero(hits)))) return false;
       }
@@ -78,14 +95,14 @@ bool cross_pairs(const CoreA& core_a, ChildRef a, const CoreB& core_b, ChildRef 
     } else if (here.b.is_leaf()) {
       const auto& node = core_a.node(here.a.index());
       const auto box = tight_box(core_b, here.b);
-      const std::uint32_t near = reaching(rows_of<CoreA>(node), 3, box.min, box.max);
+      const std::uint32_t near = reaching(rows_of<CoreA>(node), box.min, box.max);
       for (std::uint32_t s = 0; s < 3; ++s) {
         if (((near >> s) & 1u) != 0 && !node.child[s].empty()) stack.push({node.child[s], here.b});
       }
     } else if (here.a.is_leaf()) {
       const auto& node = core_b.node(here.b.index());
       const auto box = tight_box(core_a, here.a);
-      const std::uint32_t near = reaching(rows_of<CoreB>(node), 3, box.min, box.max);
+      const std::uint32_t near = reaching(rows_of<CoreB>(node), box.min, box.max);
       for (std::uint32_t s = 0; s < 3; ++s) {
         if (((near >> s) & 1u) != 0 && !node.child[s].empty()) stack.push({here.a, node.child[s]});
       }
@@ -95,7 +112,7 @@ bool cross_pairs(const CoreA& core_a, ChildRef a, const CoreB& core_b, ChildRef 
       for (std::uint32_t sa = 0; sa < 3; ++sa) {
         if (node_a.child[sa].empty()) continue;
         const auto box = node_a.child_box(sa);
-        const std::uint32_t near = reaching(rows_of<CoreB>(node_b), 3, box.min, box.max);
+        const std::uint32_t near = reaching(rows_of<CoreB>(node_b), box.min, box.max);
         for (std::uint32_t sb = 0; sb < 3; ++sb) {
           if (((near >> sb) & 1u) != 0 && !node_b.child[sb].empty())
             stack.push({node_a.child[sa], node_b.child[sb]});
@@ -123,7 +140,7 @@ bool self_pairs(const Core& core, Visit&& visit) {
       if (node.child[s].empty()) continue;
       stack.push(node.child[s]);
       const auto box = node.child_box(s);
-      const std::uint32_t near = reaching(rows_of<Core>(node), s, box.min, box.max);
+      const std::uint32_t near = reaching(rows_of<Core>(node), box.min, box.max);
       for (std::uint32_t other = 0; other < s; ++other) {
         if (((near >> other) & 1u) == 0 || node.child[other].empty()) continue;
         if (!cross_pairs(core, node.child[s], core, node.child[other], visit)) return false;

@@ -22,11 +22,8 @@ inline constexpr std::size_t stack_inline = 128;
 
 template <class Core>
 CoreRows<Core> rows_of(const typename Core::NodeType& node) {
-  return {&node.rows[0][0], Core::NodeType::lanes, Core::dimension * Core::NodeType::lanes};
-}
-template <class Core>
-CoreRows<Core> rows_of(const typename Core::LeafType& leaf) {
-  return {leaf.min_row(0), leaf.capacity, (leaf.rows - Core::dimension) * leaf.capacity};
+  return {reinterpret_cast<const typename Core::Scalar*>(&node), Core::NodeType::lanes,
+          Core::dimension * Core::NodeType::lanes};
 }
 
 /// What a search looked at.
@@ -104,10 +101,9 @@ bool search_leaf(const typename Core::LeafType& leaf, bool all, const Bound& pre
     }
     return true;
   }
-  const auto* values = leaf.values();
-  for (std::uint32_t begin = 0; begin < leaf.count; begin += mask_bits) {
-    const std::uint32_t count = leaf.count - begin < mask_bits ? leaf.count - begin : mask_bits;
-    std::uint32_t hits = predicate.hits(rows_of<Core>(leaf).from(begin), values + begin, count);
+  for (std::uint32_t begin = 0; begin < leaf.count; begin += level_bits) {
+    const std::uint32_t count = leaf.count - begin < level_bits ? leaf.count - begin : level_bits;
+    std::uint64_t hits = predicate.hits(leaf, begin, count);
     for (; hits != 0; hits &= hits - 1) {
       if (!visit(leaf, begin + static_cast<std::uint32_t>(std::countr_zero(hits)))) return false;
     }
@@ -119,28 +115,28 @@ bool search_leaf(const typename Core::LeafType& leaf, bool all, const Bound& pre
 template <class Core, class Bound, class Visit, class Counts = NoCounts>
 bool search(const Core& core, const Bound& predicate, Visit&& visit, Counts&& counts = {}) {
   if (core.root().empty() || !predicate.may(core.root_box())) return true;
+  const bool is_big = predicate.is_big(core.root_box());
   Waiting waiting(core.root());
   ChildRef here;
   for (;;) {
     while (!waiting.batch_is_full() && waiting.pop_node(here)) {
       const auto& node = core.node(here.index());
       counts.node();
-      const std::uint32_t hit = here.is_inside() ? 0x77u : predicate.may_and_must(rows_of<Core>(node));
+      const std::uint32_t hit =
+          here.is_inside() ? 0x77u : predicate.may_and_must(rows_of<Core>(node), is_big);
       waiting.push(node.child, hit);
       waiting.prefetch_second(core);
     }
     if (waiting.leaf_count() == 0) return true;
-    // A leaf's boxes are two steps away: first all headers are asked for, then the boxes of the one after
-    // next.
+    // A leaf's levels are two steps away: first all headers are asked for, then the levels of the next one.
     for (std::size_t i = 0; i < waiting.leaf_count(); ++i) prefetch(&core.leaf(waiting.leaf(i).index()));
     for (std::size_t i = 0; i < waiting.leaf_count(); ++i) {
       const ChildRef ref = waiting.leaf(i);
       if (i + 1 < waiting.leaf_count()) {
         const auto& soon = core.leaf(waiting.leaf(i + 1).index());
-        for (std::size_t a = 0; a < Core::dimension; ++a) {
-          prefetch(soon.min_row(a));
-          prefetch(soon.max_row(a));
-        }
+        const std::uint32_t count = soon.count < level_bits ? soon.count : level_bits;
+        const std::size_t end = soon.boxes_offset(count, soon.rows);
+        for (std::size_t at = 0; at < end; at += 64) prefetch(soon.data + at);
       }
       const auto& leaf = core.leaf(ref.index());
       counts.leaf(leaf.count);
@@ -166,8 +162,8 @@ class Cursor {
         hits_ &= hits_ - 1;
         return true;
       }
-      if (leaf_ != nullptr && begin_ + mask_bits < leaf_->count) {
-        begin_ += mask_bits;
+      if (leaf_ != nullptr && begin_ + level_bits < leaf_->count) {
+        begin_ += level_bits;
         test();
         continue;
       }
@@ -181,7 +177,7 @@ class Cursor {
         continue;
       }
       const auto& node = core_->node(here.index());
-      const std::uint32_t may = predicate_.may_mask(rows_of<Core>(node), 3);
+      const std::uint32_t may = predicate_.may_mask(rows_of<Core>(node));
       for (std::uint32_t side = 3; side-- > 0;) {
         if (((may >> side) & 1u) != 0 && !node.child[side].empty()) stack_.push(node.child[side]);
       }
@@ -194,8 +190,7 @@ class Cursor {
  private:
   void test() {
     const std::uint32_t left = leaf_->count - begin_;
-    const std::uint32_t count = left < mask_bits ? left : static_cast<std::uint32_t>(mask_bits);
-    hits_ = predicate_.hits(rows_of<Core>(*leaf_).from(begin_), leaf_->values() + begin_, count);
+    hits_ = predicate_.hits(*leaf_, begin_, left < level_bits ? left : level_bits);
   }
 
   const Core* core_;
@@ -204,7 +199,7 @@ class Cursor {
   const typename Core::LeafType* leaf_ = nullptr;
   std::uint32_t begin_ = 0;
   std::uint32_t position_ = 0;
-  std::uint32_t hits_ = 0;
+  std::uint64_t hits_ = 0;
 };
 
 }  // namespace spatial::detail

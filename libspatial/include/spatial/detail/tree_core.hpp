@@ -47,9 +47,10 @@ class TreeCore {
   using Nodes = std::vector<NodeType, Rebound<NodeType>>;
   using Leaves = std::vector<LeafType, Rebound<LeafType>>;
   static constexpr std::uint32_t none = 0xffffffffu;
-  /// The soft limit of a leaf (§5.1). Measured with 32, 48 and 64: fewer elements make more nodes than they
-  /// save tests, more the other way round.
-  static constexpr std::uint32_t leaf_limit = 48;
+  /// The soft limit of a leaf (§5.1). Measured with 48, 64, 96 and 128: levels make tests cheap, and fewer
+  /// leaves make fewer nodes; beyond this the nearest search loses.
+  static constexpr std::uint32_t leaf_limit = 96;
+  static constexpr std::uint32_t least_capacity = level_block;  ///< of a leaf that is inserted into
 
   explicit TreeCore(const Allocator& allocator)
       : allocator_(allocator), nodes_(allocator), leaves_(allocator), slots_(allocator) {}
@@ -114,6 +115,7 @@ class TreeCore {
     // A leaf over the soft limit may have become divisible when its tight box grows; making room finds out.
     if (same_place && (home.count <= leaf_limit || encloses(link_box(home.parent, home.side), box))) {
       if (home.is_flat() && !is_point(box)) enlarge_leaf(where.leaf, home.capacity, 2 * D);
+      if (home.has_old_frame()) home.make_new_frame(link_box(home.parent, home.side));
       const BoxType old = home.box(where.position);
       home.set_box(where.position, box);
       const BoxType tight = link_box(home.parent, home.side);
@@ -199,9 +201,8 @@ class TreeCore {
       to.rows = from.rows;
       to.data = Memory::allocate(allocator_, from.capacity, from.rows);
       to.capacity = from.capacity;
+      to.copy_all(from);
       for (std::uint32_t i = 0; i < from.count; ++i, ++to.count) {
-        to.set_box(i, from.box(i));
-        to.ids()[i] = from.ids()[i];
         ::new (static_cast<void*>(to.values() + i)) Value(make(from.values()[i]));
       }
     }
@@ -374,16 +375,20 @@ class TreeCore {
   }
   static std::uint32_t capacity_for(std::uint32_t count) {
     if (count > leaf_limit) return count + count / 2;
-    std::uint32_t capacity = leaf_limit / 4;
+    std::uint32_t capacity = least_capacity;
     while (capacity < count) capacity *= 2;
-    return capacity;
+    return capacity < leaf_limit ? capacity : leaf_limit;
   }
 
   // Moves the element from one leaf to the end of another, and tells its slot.
-  void move_element(LeafType& from, std::uint32_t at, std::uint32_t to_index) {
+  void move_element(LeafType& from, std::uint32_t at, std::uint32_t to_index, bool same_frame) {
     LeafType& to = leaves_[to_index];
     const std::uint32_t end = to.count++;
-    to.set_box(end, from.box(at));
+    if (same_frame) {
+      to.copy_box(from, at, end);
+    } else {
+      to.set_box(end, from.box(at));
+    }
     const std::uint32_t id = from.ids()[at];
     to.ids()[end] = id;
     Value& value = from.values()[at];
@@ -399,14 +404,12 @@ class TreeCore {
     bigger.rows = rows;
     bigger.data = Memory::allocate(allocator_, capacity, rows);
     LeafType& old = leaves_[index];
-    for (std::size_t a = 0; a < D; ++a) {
-      std::copy_n(old.min_row(a), old.count, bigger.min_row(a));
-      if (!bigger.is_flat()) std::copy_n(old.max_row(a), old.count, bigger.max_row(a));
-    }
+    bigger.copy_all(old);
+    Value* from = old.values();
+    Value* to = bigger.values();
     for (std::uint32_t i = 0; i < old.count; ++i) {
-      bigger.ids()[i] = old.ids()[i];
-      ::new (static_cast<void*>(bigger.values() + i)) Value(std::move(old.values()[i]));
-      old.values()[i].~Value();
+      ::new (static_cast<void*>(to + i)) Value(std::move(from[i]));
+      from[i].~Value();
     }
     Memory::free(allocator_, old);
     old = bigger;
@@ -419,9 +422,10 @@ class TreeCore {
     std::uint32_t parent = none;
     std::uint32_t side = 0;
     ChildRef here = root_;
+    if (here.is_node() && !nodes_[here.index()].cell.holds(box)) return append_above(here.index(), box, id);
     for (;;) {
-      if (here.empty()) return append(attach_new_leaf(parent, side, box), box, id);
-      if (here.is_leaf()) {
+      if (!here.is_node()) {
+        if (here.empty()) return append(attach_new_leaf(parent, side, box), box, id);
         const std::uint32_t index = here.index();
         const LeafType& there = leaves_[index];
         if (there.count < leaf_limit || (there.indivisible && encloses(link_box(parent, side), box)) ||
@@ -431,13 +435,9 @@ class TreeCore {
         here = link(parent, side);
         continue;
       }
-      const std::uint32_t index = here.index();
-      const NodeType& node = nodes_[index];
-      if ((node.compressed || parent == none) && !node.cell.holds(box)) {
-        const std::uint32_t above = insert_node_above(index, box);
-        return append(attach_new_leaf(above, nodes_[above].side_of(box), box), box, id);
-      }
-      parent = index;
+      const NodeType& node = nodes_[here.bits];
+      if (node.compressed && !node.cell.holds(box)) return append_above(here.bits, box, id);
+      parent = here.bits;
       // Branches: half of the guesses are wrong, but a right one starts on the next node at once.
       if (box.max[node.axis] <= node.plane) {
         side = lower;
@@ -452,6 +452,12 @@ class TreeCore {
     }
   }
 
+  // The same for a box that is outside of the volume of a node.
+  Slot append_above(std::uint32_t node, const BoxType& box, std::uint32_t id) {
+    const std::uint32_t above = insert_node_above(node, box);
+    return append(attach_new_leaf(above, nodes_[above].side_of(box), box), box, id);
+  }
+
   Slot append(std::uint32_t index, const BoxType& box, std::uint32_t id) {
     LeafType& target = leaves_[index];
     const bool widen = target.is_flat() && !is_point(box);
@@ -459,6 +465,7 @@ class TreeCore {
       enlarge_leaf(index, target.count == target.capacity ? capacity_for(target.count + 1) : target.capacity,
                    widen ? 2 * D : target.rows);
     }
+    if (target.has_old_frame()) target.make_new_frame(link_box(target.parent, target.side));
     const std::uint32_t end = target.count++;
     target.set_box(end, box);
     target.ids()[end] = id;
@@ -467,9 +474,19 @@ class TreeCore {
   }
 
   std::uint32_t attach_new_leaf(std::uint32_t parent, std::uint32_t side, const BoxType& box) {
-    const std::uint32_t index = new_leaf(leaf_limit / 4, is_point(box) ? D : 2 * D);
+    const std::uint32_t index = new_leaf(least_capacity, is_point(box) ? D : 2 * D);
+    BoxType room = box;  // likely to hold what will come
+    if (parent != none) extend_by_cell(room, link_cell(parent, side));
+    leaves_[index].set_frame(Frame<T, D>::around(room));
     attach_leaf(index, parent, side);
     return index;
+  }
+  static void extend_by_cell(BoxType& box, const Cell<T, D>& cell) {
+    for (std::size_t a = 0; a < D; ++a) {
+      if (!cell.is_divisible(a)) continue;
+      box.min[a] = cell.box.min[a] < box.min[a] ? cell.box.min[a] : box.min[a];
+      box.max[a] = cell.box.max[a] > box.max[a] ? cell.box.max[a] : box.max[a];
+    }
   }
   void attach_leaf(std::uint32_t index, std::uint32_t parent, std::uint32_t side) {
     leaves_[index].parent = parent;
@@ -514,7 +531,7 @@ class TreeCore {
     }
     fresh.cell = cell;
     fresh.plane = at.plane;
-    fresh.axis = static_cast<std::uint32_t>(at.axis);
+    fresh.axis = static_cast<std::uint8_t>(at.axis);
     fresh.compressed = compressed;
     const BoxType tight = link_box(parent, parent_side);
     attach_node(above, parent, parent_side);
@@ -573,31 +590,38 @@ class TreeCore {
       compressed = true;
     }
     std::uint32_t counts[3] = {0, 0, 0};
-    {
-      const LeafType& old = leaves_[index];
-      const T* low = old.min_row(at.axis);
-      const T* high = old.max_row(at.axis);
-      for (std::uint32_t i = 0; i < old.count; ++i) ++counts[side_of(low[i], high[i], at.plane)];
+    BoxType bounds[3] = {empty_box<T, D>(), empty_box<T, D>(), empty_box<T, D>()};
+    const auto boxes = leaves_[index].boxes();
+    for (std::uint32_t i = 0; i < leaves_[index].count; ++i) {
+      const BoxType box = boxes[i];
+      const Side to = side_of(box.min[at.axis], box.max[at.axis], at.plane);
+      ++counts[to];
+      extend(bounds[to], box);
     }
+    // Half of a volume may do with half of the levels, once on each axis.
+    const bool same_frame = leaves_[index].frame_age < D && !leaves_[index].has_old_frame();
     const std::uint32_t made = new_node();
     // The new leaves hang at the node before the old one is touched, so that a failing allocation loses
     // nothing.
     std::uint32_t leaves[3] = {none, none, none};
     Undo undo{this, made, leaves};
     for (std::uint32_t s = 0; s < 3; ++s) {
-      if (counts[s] > 0) leaves[s] = new_leaf(capacity_for(counts[s]), leaves_[index].rows);
+      if (counts[s] == 0) continue;
+      leaves[s] = new_leaf(capacity_for(counts[s]), leaves_[index].rows);
+      if (!same_frame) leaves_[leaves[s]].set_frame(Frame<T, D>::around(bounds[s]));
+      if (same_frame) leaves_[leaves[s]].inherit_frame(leaves_[index]);
     }
     undo.core = nullptr;
     NodeType& node = nodes_[made];
     node.cell = cell;
     node.plane = at.plane;
-    node.axis = static_cast<std::uint32_t>(at.axis);
+    node.axis = static_cast<std::uint8_t>(at.axis);
     node.compressed = compressed;
     for (std::size_t s = 0; s < NodeType::lanes; ++s) node.set_child_box(s, empty_box<T, D>());
     LeafType& old = leaves_[index];
     for (std::uint32_t i = 0; i < old.count; ++i) {
-      const Side to = side_of(old.min_row(at.axis)[i], old.max_row(at.axis)[i], at.plane);
-      move_element(old, i, leaves[to]);
+      const BoxType box = boxes[i];
+      move_element(old, i, leaves[side_of(box.min[at.axis], box.max[at.axis], at.plane)], same_frame);
     }
     old.count = 0;
     free_leaf(index);
@@ -605,7 +629,7 @@ class TreeCore {
     for (std::uint32_t s = 0; s < 3; ++s) {
       if (leaves[s] == none) continue;
       attach_leaf(leaves[s], made, s);
-      node.set_child_box(s, leaves_[leaves[s]].bounds());
+      node.set_child_box(s, bounds[s]);
     }
     // What is still over the limit was indivisible before `incoming` came, so this goes no deeper.
     for (std::uint32_t s = 0; s < 3; ++s) {
@@ -647,7 +671,7 @@ class TreeCore {
     const std::uint32_t last = home.count - 1;
     Value* values = home.values();
     if (where.position != last) {
-      home.set_box(where.position, home.box(last));
+      home.copy_box(home, last, where.position);
       const std::uint32_t moved = home.ids()[last];
       home.ids()[where.position] = moved;
       slots_[moved].position = where.position;
@@ -769,12 +793,13 @@ class TreeCore {
     for (const ChildRef child : node.child) {
       if (child.empty() || child.index() == target) continue;
       LeafType& from = leaves_[child.index()];
-      for (std::uint32_t i = 0; i < from.count; ++i) move_element(from, i, target);
+      for (std::uint32_t i = 0; i < from.count; ++i) move_element(from, i, target, false);
       from.count = 0;
       free_leaf(child.index());
     }
     leaves_[target].indivisible = false;
     leaves_[target].loose = 0;
+    leaves_[target].make_new_frame(leaves_[target].bounds());
     attach_leaf(target, node.parent, node.side);
     return true;
   }
