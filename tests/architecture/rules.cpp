@@ -26,7 +26,7 @@ const std::vector<Layer> layers{
      {"arrangement", "buffers", "hybrid_mesh", "merge_distances", "pieces"}},
     {"changes", {"spatial", "base", "lattice", "mesh"}, {"changes"}},
     {"validate", {"spatial", "base", "lattice", "mesh", "changes"}, {"validate"}},
-    {"cutting", {"spatial", "base", "lattice", "mesh", "changes", "validate"}, {"cutter"}},
+    {"cutting", {"spatial", "base", "lattice", "mesh", "changes", "validate"}, {"blade", "cutter"}},
     {"simulation",
      {"spatial", "base", "lattice", "mesh", "changes"},
      {"material", "simulation", "spring_blocks", "surroundings", "tearing"}},

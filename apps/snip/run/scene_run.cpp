@@ -117,8 +117,9 @@ Result<> SceneRun::load_cutters(const std::filesystem::path& folder) {
     if (!mesh) return mesh.error();
     cutter_meshes_.push_back(to_triangle_mesh(*mesh));
   }
-  for (std::size_t i = 0; i < scene_.cutters.size() + scene_.blades.size() + 1; ++i)
-    cutters_.emplace_back(*distances);
+  cutters_.reserve(scene_.cutters.size() + 1);
+  for (std::size_t i = 0; i < scene_.cutters.size() + 1; ++i) cutters_.emplace_back(*distances);
+  for (std::size_t i = 0; i < scene_.blades.size(); ++i) blades_.emplace_back(*distances);
   return {};
 }
 
@@ -144,8 +145,7 @@ Result<> SceneRun::hold_anchors() {
   return {};
 }
 
-Result<> SceneRun::cut_with(cut::Cutter& cutter, const cut::TriangleMesh& mesh, const std::string& name) {
-  const auto changes = cutter.cut(mesh_, mesh);
+Result<> SceneRun::take_over(const cut::Result<cut::Changes>& changes, const std::string& name) {
   if (!changes) return Error{fmt::format("{}: {}", name, changes.error().message)};
   if (changes->empty()) return {};
   if (const auto error = simulation_.apply(*changes, mesh_))
@@ -159,19 +159,23 @@ Result<> SceneRun::cut_due(double from, double to) {
     const StaticCutter& cutter = scene_.cutters[i];
     for (const std::size_t repetition : repetitions_between(cutter, from, to)) {
       const Eigen::Vector3d offset = static_cast<double>(repetition) * cutter.step;
-      const auto cut = cut_with(cutters_[i], scenes::moved(cutter_meshes_[i], offset), cutter.mesh.place);
+      const auto changes = cutters_[i].cut(mesh_, scenes::moved(cutter_meshes_[i], offset));
+      const auto cut = take_over(changes, cutter.mesh.place);
       if (!cut) return cut;
     }
   }
   for (std::size_t i = 0; i < scene_.blades.size(); ++i) {
     const MovingBlade& blade = scene_.blades[i];
     if (!blade_moves_between(blade, from, to)) continue;
-    const auto swept = scenes::swept(blade_at(blade, from), blade_at(blade, to));
-    const auto cut = cut_with(cutters_[scene_.cutters.size() + i], swept, blade.place);
-    if (!cut) return cut;
+    if (!blades_[i].placed())
+      if (const auto cut = take_over(blades_[i].cut_to(mesh_, blade_at(blade, from)), blade.place); !cut)
+        return cut;
+    if (const auto cut = take_over(blades_[i].cut_to(mesh_, blade_at(blade, to)), blade.place); !cut)
+      return cut;
   }
   cut::Cutter& tearing = cutters_.back();
-  return cut_with(tearing, cut::tears(mesh_, scene_.tear_limit, tearing.distances()), scene_.material_place);
+  return take_over(tearing.cut(mesh_, cut::tears(mesh_, scene_.tear_limit, tearing.distances())),
+                   scene_.material_place);
 }
 
 Result<> SceneRun::advance() {

@@ -3,6 +3,7 @@
 /// Writes nothing; reads the mesh files that the scene names.
 #pragma once
 #include <cstddef>
+#include <cut/blade.hpp>
 #include <cut/cutter.hpp>
 #include <cut/hybrid_mesh.hpp>
 #include <cut/pieces.hpp>
@@ -53,7 +54,7 @@ class SceneRun {
   SceneRun(Scene scene, Mesh cloth, cut::HybridMesh mesh, cut::Simulation simulation);
   Result<> load_cutters(const std::filesystem::path& folder);
   Result<> hold_anchors();
-  Result<> cut_with(cut::Cutter& cutter, const cut::TriangleMesh& mesh, const std::string& name);
+  Result<> take_over(const cut::Result<cut::Changes>& changes, const std::string& name);
   Result<> cut_due(double from, double to);
   [[nodiscard]] std::string blow_up(std::size_t node) const;
   void count();
@@ -63,7 +64,8 @@ class SceneRun {
   cut::HybridMesh mesh_;
   cut::Simulation simulation_;
   std::vector<cut::TriangleMesh> cutter_meshes_;
-  std::vector<cut::Cutter> cutters_;  // those of cutter_meshes_, then those of the blades, then one for tears
+  std::vector<cut::Cutter> cutters_;  // those of cutter_meshes_, then one for tears
+  std::vector<cut::Blade> blades_;
   cut::Pieces pieces_;
   PieceColours colours_;
   std::string warning_;

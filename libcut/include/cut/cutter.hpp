@@ -51,6 +51,7 @@ class Cutter {
   [[nodiscard]] const StepTimings& timings() const;
 
  private:
+  friend class Blade;
   struct Memory;
   std::unique_ptr<Memory> memory_;
 };

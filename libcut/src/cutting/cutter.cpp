@@ -9,11 +9,11 @@
 #include <utility>
 
 #include "cutting/arrange_triangle.hpp"
-#include "cutting/broad_phase.hpp"
 #include "cutting/change_log.hpp"
 #include "cutting/copy_boundary_nodes.hpp"
 #include "cutting/copy_physics_nodes.hpp"
 #include "cutting/copy_physics_triangles.hpp"
+#include "cutting/cutter_memory.hpp"
 #include "cutting/detect_cutting_lines.hpp"
 #include "cutting/detect_disjoint_polygons.hpp"
 #include "cutting/edge_state.hpp"
@@ -26,15 +26,6 @@
 #include "mesh/state.hpp"
 
 namespace cut {
-
-struct Cutter::Memory {
-  MergeDistances distances;
-  BroadPhase broad_phase;
-  std::uint32_t previous_cut = 0;
-  ClusterCentres centres;
-  std::vector<DetectedLine> lines;  ///< of the previous call
-  StepTimings timings;
-};
 
 namespace {
 
@@ -162,12 +153,10 @@ Result<Changes> Cutter::cut(HybridMesh& mesh, const TriangleMesh& cutter) {
   // clipped by its own cut. That it was called is forgotten, so that the nodes of the cut stay recent.
   if (!lines.empty() && lines == memory_->lines && as_left) return nothing;
   memory_->lines = std::move(lines);
+  // What the last cut left is still remembered: a blade that stands still for a while goes on with its cut.
+  if (works.empty()) return nothing;
   ++mesh.cut_count;
   memory_->previous_cut = context.this_cut;
-  if (works.empty()) {
-    memory_->centres = {};
-    return nothing;
-  }
 
   executor.for_each(works.size(), [&](std::size_t i) { merge_cut_endpoints(works[i], context); });
   ClusterCentres next_centres;

@@ -33,15 +33,6 @@ class PolygonsByFragment {
   std::vector<std::pair<TriangleId, std::uint32_t>> sorted_;
 };
 
-PhysicsFace physics_face(const HybridMesh& mesh, const PhysicsTriangle& triangle) {
-  PhysicsFace face;
-  for (std::size_t k = 0; k < 3; ++k) {
-    face.corners[k] = mesh.positions[triangle.nodes[k].index()];
-    face.reversed[k] = mesh.ancestors.reversed(triangle.ancestor, k);
-  }
-  return face;
-}
-
 /// @param candidates those of one ancestor, sorted
 Detection detect_on_ancestor(const HybridMesh& mesh, const std::vector<CutterFace>& faces,
                              std::span<const CandidatePair> candidates, double slack,
@@ -75,6 +66,15 @@ Detection detect_on_ancestor(const HybridMesh& mesh, const std::vector<CutterFac
 }
 
 }  // namespace
+
+PhysicsFace physics_face(const HybridMesh& mesh, const PhysicsTriangle& triangle) {
+  PhysicsFace face;
+  for (std::size_t k = 0; k < 3; ++k) {
+    face.corners[k] = mesh.positions[triangle.nodes[k].index()];
+    face.reversed[k] = mesh.ancestors.reversed(triangle.ancestor, k);
+  }
+  return face;
+}
 
 double contact_slack(const MergeDistances& distances, const TriangleMesh& cutter) {
   double largest = 0;

@@ -9,6 +9,7 @@
 #include "cut/executor.hpp"
 #include "cut/hybrid_mesh.hpp"
 #include "cut/triangle_mesh.hpp"
+#include "cutting/intersect_triangles.hpp"
 #include "cutting/state.hpp"
 
 namespace cut {
@@ -18,6 +19,9 @@ struct CandidatePair {
   TriangleId triangle;
   std::uint32_t cutter_triangle;
 };
+
+/// A physics triangle where it is now.
+PhysicsFace physics_face(const HybridMesh& mesh, const PhysicsTriangle& triangle);
 
 /// How far features of cloth and cutter may miss each other in space and still count as touching. Everything
 /// that lies within it is far inside the merge distances, so it decides nothing but that no contact is lost

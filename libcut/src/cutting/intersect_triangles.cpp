@@ -38,6 +38,14 @@ bool unit_normal(const std::array<Vector3, 3>& corners, Vector3& normal) {
   return true;
 }
 
+/// Signed distances of p from the three edges are at least -slack.
+bool within(const std::array<Vector3, 3>& corners, const std::array<Vector3, 3>& inward, const Vector3& p,
+            double slack) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (!(dot(inward[k], p - corners[k]) >= -slack)) return false;
+  return true;
+}
+
 /// Of three points above a plane; 0 within the slack.
 std::array<double, 3> heights(const std::array<Vector3, 3>& points, const Vector3& normal,
                               const Vector3& origin, double slack) {
@@ -107,11 +115,7 @@ bool CutterFace::prepare(std::array<Vector3, 3> points) {
   return true;
 }
 
-bool CutterFace::contains(const Vector3& p, double slack) const {
-  for (std::size_t k = 0; k < 3; ++k)
-    if (!(dot(inward[k], p - corners[k]) >= -slack)) return false;
-  return true;
-}
+bool CutterFace::contains(const Vector3& p, double slack) const { return within(corners, inward, p, slack); }
 
 bool CutterFace::misses(const std::array<Vector3, 3>& triangle, double slack) const {
   return one_sided(heights(triangle, normal, corners[0], slack));
@@ -144,9 +148,7 @@ void intersect(const PhysicsFace& triangle, const CutterFace& cutter, double sla
   const PlaneCoordinates coordinates(face.corners);
   const std::array<Vector3, 3> inward = inward_vectors(face.corners, normal);
   const auto add_when_inside = [&](const Vector3& p) {
-    for (std::size_t k = 0; k < 3; ++k)
-      if (!(dot(inward[k], p - face.corners[k]) >= -slack)) return;
-    points.push_back(coordinates(p));
+    if (within(face.corners, inward, p, slack)) points.push_back(coordinates(p));
   };
   for (std::size_t k = 0; k < 3; ++k) {
     if (g[k] == 0) add_when_inside(cutter.corners[k]);
@@ -159,6 +161,20 @@ void intersect(const PhysicsFace& triangle, const CutterFace& cutter, double sla
                       (cutter.corners[to] - cutter.corners[from]) * (g[from] / (g[from] - g[to])));
   }
   sort_along_line(points);
+}
+
+std::optional<Pierced> pierce(const PhysicsFace& triangle, const Vector3& a, const Vector3& b, double slack) {
+  Vector3 normal;
+  if (!unit_normal(triangle.corners, normal)) return std::nullopt;
+  const bool turned = less(b, a);  // in the order in which `intersect` looks at the edge
+  const Vector3& from = turned ? b : a;
+  const Vector3& to = turned ? a : b;
+  const std::array<double, 3> g = heights({from, to, to}, normal, triangle.corners[0], slack);
+  if ((g[0] > 0 && g[1] > 0) || (g[0] < 0 && g[1] < 0) || (g[0] == 0 && g[1] == 0)) return std::nullopt;
+  const double t = g[0] / (g[0] - g[1]);
+  const Vector3 p = g[1] == 0 ? to : Vector3(from + (to - from) * t);
+  if (!within(triangle.corners, inward_vectors(triangle.corners, normal), p, slack)) return std::nullopt;
+  return Pierced{turned ? 1 - t : t, PlaneCoordinates(triangle.corners)(p)};
 }
 
 }  // namespace cut

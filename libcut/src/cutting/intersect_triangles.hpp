@@ -6,6 +6,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "cut/lattice_point.hpp"
@@ -37,5 +38,16 @@ struct PhysicsFace {
 /// when there is no line (apart, coplanar, or touching in a point).
 void intersect(const PhysicsFace& triangle, const CutterFace& cutter, double slack,
                std::vector<LatticePoint>& points);
+
+/// Where a line crosses a triangle.
+struct Pierced {
+  double parameter;  ///< on the line, 0 at its start, 1 at its end
+  LatticePoint point;
+};
+
+/// Where the line from a to b crosses the triangle, as `intersect` sees it for a cutter with this edge.
+/// Nothing for a line in the triangle's plane.
+std::optional<Pierced> pierce(const PhysicsFace& triangle, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                              double slack);
 
 }  // namespace cut
