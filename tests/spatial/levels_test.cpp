@@ -2,7 +2,9 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <random>
 #include <spatial/detail/levels.hpp>
 #include <vector>
 
@@ -68,4 +70,23 @@ TEST_CASE("a box uses nearly all levels, a flat one the middle") {
   CHECK(frame.level(0, 2.0) == -128);
   CHECK(frame.level(0, 8.0) == 127);
   CHECK(frame.level(1, 5.1) > inside.high[1]);
+}
+
+TEST_CASE("no corner of its box is beside a frame") {
+  std::mt19937_64 random(1);
+  const auto check = [&](auto zero) {
+    using T = decltype(zero);
+    for (int i = 0; i < 100000; ++i) {
+      // Extents down to some rounding errors of the coordinates, and far beyond.
+      const T at = std::uniform_real_distribution<T>(-1, 1)(random);
+      const int digits = std::numeric_limits<T>::digits;
+      const T extent = std::ldexp(std::uniform_real_distribution<T>(0, 1)(random),
+                                  std::uniform_int_distribution<int>(-digits, digits)(random));
+      const auto frame = spatial::detail::Frame<T, 1>::around({{at}, {at + extent}});
+      REQUIRE(frame.level(0, at) > -128);
+      REQUIRE(frame.level(0, at + extent) < 127);
+    }
+  };
+  check(0.0f);
+  check(0.0);
 }

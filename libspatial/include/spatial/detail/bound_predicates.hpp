@@ -45,12 +45,8 @@ struct OneByOne {
     }
     return result;
   }
-  /// may_mask for three children; four bits higher, those of which nothing needs to be tested. That is asked
-  /// for where the predicate is_big.
-  [[nodiscard]] std::uint32_t may_and_must(const Rows<T, D>& rows, bool) const {
-    return self().may_mask(rows);
-  }
-  [[nodiscard]] bool is_big(const Box<T, D>&) const { return false; }
+  /// may_mask for three children; four bits higher, some of those of which nothing needs to be tested.
+  [[nodiscard]] std::uint32_t may_and_must(const Rows<T, D>& rows) const { return self().may_mask(rows); }
   template <class Leaf>
   [[nodiscard]] std::uint64_t hits(const Leaf& leaf, std::uint32_t begin, std::uint32_t count) const {
     return passing(self(), leaf, begin, first_level_bits(count));
@@ -119,21 +115,13 @@ class BoundRelation : public OneByOne<BoundRelation<R, T, D>, T, D> {
     if constexpr (R == Relation::covers || R == Relation::contains) return reaching(rows, q_.max, q_.min);
     return reaching(rows, q_.min, q_.max);
   }
-  [[nodiscard]] std::uint32_t may_and_must(const Rows<T, D>& rows, bool big) const {
+  [[nodiscard]] std::uint32_t may_and_must(const Rows<T, D>& rows) const {
     const std::uint32_t may = may_mask(rows);
     if constexpr (R == Relation::intersects || R == Relation::covered_by) {
-      if (big) return may | (may & covered(rows, q_.min, q_.max)) << 4;
+      // A query that reaches one child only is rarely big enough to cover it.
+      if ((may & (may - 1)) != 0) return may | (may & covered(rows, q_.min, q_.max)) << 4;
     }
     return may;
-  }
-  /// A small query hardly covers a node, and the levels of a leaf are tested quickly.
-  [[nodiscard]] bool is_big(const Box<T, D>& root) const {
-    bool result = true;
-    for (std::size_t a = 0; a < D; ++a) {
-      const auto part = half_extent(root.min[a], root.max[a]) / 8;
-      result &= half_extent(q_.min[a], q_.max[a]) >= part;
-    }
-    return result;
   }
   /// The levels decide nearly all; what they leave open is tested.
   template <class Leaf>
@@ -202,8 +190,7 @@ struct BoundAnd {
     }
     return result;
   }
-  [[nodiscard]] std::uint32_t may_and_must(const Rows<T, D>& rows, bool) const { return may_mask(rows); }
-  [[nodiscard]] bool is_big(const Box<T, D>&) const { return false; }
+  [[nodiscard]] std::uint32_t may_and_must(const Rows<T, D>& rows) const { return may_mask(rows); }
   /// The first one tests widely; the second one sees only what the first one has let through.
   template <class Leaf>
   [[nodiscard]] std::uint64_t hits(const Leaf& leaf, std::uint32_t begin, std::uint32_t count) const {

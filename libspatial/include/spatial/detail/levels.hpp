@@ -35,7 +35,7 @@ struct LevelBounds {
   Level high[D];
 };
 
-/// How coordinates become levels: 1 to 254 lie inside of a box but for rounding, 0 and 255 beside it.
+/// How coordinates become levels: 1 to 253 lie inside of a box, 0 and 255 beside it.
 template <class T, std::size_t D>
 struct Frame {
   using S = DistanceOf<T>;
@@ -53,13 +53,14 @@ struct Frame {
       low = low < -huge ? -huge : low > huge ? huge : low;
       high = high < -huge ? -huge : high > huge ? huge : high;
       S extent = high - low;
-      // Without extent, it is the middle level, and what differs by some rounding errors is beside it.
-      const S rounding = (low < 0 ? -low : low) * (8 * std::numeric_limits<S>::epsilon());
+      // From this extent on, rounding the origin moves the box by less than half a level. Below, the middle
+      // level is where it begins.
+      const S rounding = (low < 0 ? -low : low) * (256 * std::numeric_limits<S>::epsilon());
       const S least = rounding > tiny ? rounding : tiny;
       const bool flat = extent < least;
       if (flat) extent = 2 * least;
-      frame.scale[a] = 253 / extent;
-      frame.origin[a] = low - (flat ? least : extent / 253);
+      frame.scale[a] = 252 / extent;
+      frame.origin[a] = low - (flat ? least : extent * S(1.5) / 252);
     }
     return frame;
   }

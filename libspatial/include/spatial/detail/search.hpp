@@ -115,15 +115,13 @@ bool search_leaf(const typename Core::LeafType& leaf, bool all, const Bound& pre
 template <class Core, class Bound, class Visit, class Counts = NoCounts>
 bool search(const Core& core, const Bound& predicate, Visit&& visit, Counts&& counts = {}) {
   if (core.root().empty() || !predicate.may(core.root_box())) return true;
-  const bool is_big = predicate.is_big(core.root_box());
   Waiting waiting(core.root());
   ChildRef here;
   for (;;) {
     while (!waiting.batch_is_full() && waiting.pop_node(here)) {
       const auto& node = core.node(here.index());
       counts.node();
-      const std::uint32_t hit =
-          here.is_inside() ? 0x77u : predicate.may_and_must(rows_of<Core>(node), is_big);
+      const std::uint32_t hit = here.is_inside() ? 0x77u : predicate.may_and_must(rows_of<Core>(node));
       waiting.push(node.child, hit);
       waiting.prefetch_second(core);
     }
