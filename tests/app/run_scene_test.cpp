@@ -1,6 +1,7 @@
 // Scenes in motion: the three experiments of the paper (§6, Figure 8), anchors, mistakes, and what a run
 // writes.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -317,7 +318,7 @@ TEST_CASE("a run that blows up says so, and leaves what there is up to the last 
       snip::run_scene({folder.write("s.json", "{" + sheet + stiff), folder.path / "out", {}, false});
   REQUIRE_FALSE(ran);
   CHECK(ran.error().message.rfind("frame ", 0) == 0);
-  CHECK(ran.error().message.find("the simulation blew up at node ") != std::string::npos);
+  CHECK(ran.error().message.find("the simulation blew up in step ") != std::string::npos);
   CHECK(ran.error().message.find("the time step of 0.01 s is more than the ") != std::string::npos);
   const auto lines = lines_of(text_of(folder.path / "out/frames.csv"));
   CHECK(lines.size() >= 2);
@@ -331,6 +332,60 @@ TEST_CASE("a run that blows up in small steps blames the forces") {
   const auto advanced = run.advance();
   REQUIRE_FALSE(advanced);
   CHECK(advanced.error().message.find(": the forces are too large") != std::string::npos);
+}
+
+TEST_CASE("a step that fails is named, counted from the start of the run, and so is its node") {
+  SceneRun run = start(scene_of("{" + sheet + R"(, "material": {"stiffness": 1e6}, "time_step": 0.01})"));
+  snip::Result<> advanced;
+  while ((advanced = run.advance())) continue;
+  const std::string where = fmt::format(" in step {} at node ", run.simulation().updates() + 1);
+  CHECK_MESSAGE(advanced.error().message.find(where) != std::string::npos, advanced.error().message);
+}
+
+TEST_CASE("an implicit step without a solution says which, and what helps") {
+  Scene scene =
+      scene_of("{" + sheet + R"(, "integrator": "implicit_euler", "material": {"stiffness": 1e4}})");
+  scene.surroundings.most_iterations = 1;
+  SceneRun run = start(scene);
+  snip::Result<> advanced;
+  while ((advanced = run.advance()) && run.frame().number < 9) continue;
+  REQUIRE_FALSE(advanced);
+  const std::string step = fmt::format("the implicit step {} found no velo", run.simulation().updates() + 1);
+  CHECK_MESSAGE(advanced.error().message.find(step) != std::string::npos, advanced.error().message);
+  CHECK(advanced.error().message.find("a smaller time_step") != std::string::npos);
+}
+
+TEST_CASE("stiff cloth falls over a ball onto a floor at frame rate, and is cut there") {
+  SceneRun run = start(scene_of(R"({"cloth": {"shape": "grid", "columns": 8, "rows": 8, "spacing": 0.125},
+    "material": {"stiffness": 5000, "damping": 1}, "integrator": "implicit_euler", "normal_drag": 0.2,
+    "time_step": 0.016, "steps_per_frame": 1, "frames": 60, "obstacles": [
+      {"half_space": {"point": [0, 0, -0.5], "friction": 0.4}},
+      {"sphere": {"centre": [0.5, 0.5, -0.3], "radius": 0.25, "friction": 0.4}}],
+    "cutters": [{"at": 0.5, "mesh":
+      {"shape": "plane", "centre": [0.22, 0.5, -0.3], "u": [0.02, 3, 0], "v": [0, 0, 2]}}]})"));
+  CHECK(run.warning().empty());
+  finish(run);
+  CHECK(run.frame().pieces == 2);
+  const Eigen::Vector3d middle(0.5, 0.5, -0.3);
+  double lowest = 1;
+  for (const Eigen::Vector3d& p : run.mesh().positions) {
+    CHECK((p - middle).norm() > 0.25 - 1e-6);
+    CHECK(p.z() > -0.5 - 1e-6);
+    lowest = std::min(lowest, p.z());
+  }
+  CHECK(lowest < -0.499);
+}
+
+TEST_CASE("an obstacle that moves too fast for the cloth is named with its place") {
+  const auto message = [](const std::string& obstacle) {
+    const auto run = SceneRun::start(scene_of("{" + sheet + ",\n\"obstacles\": [" + obstacle + "]}"), ".");
+    return run ? "no error" : run.error().message;
+  };
+  CHECK(message(R"({"sphere": {"centre": [0, 0, -9], "velocity": [0, 0, 1400]}})") == "no error");
+  CHECK(message(R"({"half_space": {"point": [0, 0, -9]}}, {"sphere": {"velocity": [0, 0, -1500]}})")
+            .rfind("s.json:3: /obstacles/1/sphere: the velocity takes it further", 0) == 0);
+  CHECK(message(R"({"half_space": {"velocity": [0, 1500, 0]}})")
+            .rfind("s.json:3: /obstacles/0/half_space: the velocity takes it further", 0) == 0);
 }
 
 TEST_CASE("a folder that cannot be made is an error") {

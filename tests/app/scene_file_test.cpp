@@ -64,7 +64,10 @@ TEST_CASE("every key reaches its place") {
     "cloth": {"file": "a/b.obj", "scale": 2, "turn": {"axis": [0, 0, 1], "degrees": 90}, "move": [5, 0, 0]},
     "material": {"mode": "paper", "mass": 3, "stiffness": 40, "damping": 0.5},
     "anchors": [{"box": [[0, 0, 0], [1, 2, 3]]}, {"nodes": [4, 7]}],
-    "gravity": [0, -1, 0], "air_drag": 0.25, "wind": [1, 2, 3], "integrator": "forward_euler",
+    "gravity": [0, -1, 0], "air_drag": 0.25, "normal_drag": 0.75, "wind": [1, 2, 3],
+    "integrator": "forward_euler", "obstacles": [
+      {"sphere": {"centre": [1, 2, 3], "radius": 4, "velocity": [0, 0, 5], "friction": 0.5}},
+      {"half_space": {"point": [0, 0, -1], "normal": [0, 1, 1], "velocity": [6, 0, 0], "friction": 0.25}}],
     "time_step": 0.0005, "steps_per_frame": 8, "frames": 77,
     "merge": {"cut": 0.1, "node": 0.05, "edge": 0.02},
     "cutters": [
@@ -91,7 +94,18 @@ TEST_CASE("every key reaches its place") {
   CHECK(scene.surroundings.gravity == Vector3d(0, -1, 0));
   CHECK(scene.surroundings.air_drag == 0.25);
   CHECK(scene.surroundings.wind == Vector3d(1, 2, 3));
+  CHECK(scene.surroundings.normal_drag == 0.75);
   CHECK(scene.surroundings.integrator == cut::Integrator::forward_euler);
+  REQUIRE(scene.surroundings.spheres.size() == 1);
+  CHECK(scene.surroundings.spheres[0].centre == Vector3d(1, 2, 3));
+  CHECK(scene.surroundings.spheres[0].radius == 4);
+  CHECK(scene.surroundings.spheres[0].velocity == Vector3d(0, 0, 5));
+  CHECK(scene.surroundings.spheres[0].friction == 0.5);
+  REQUIRE(scene.surroundings.half_spaces.size() == 1);
+  CHECK(scene.surroundings.half_spaces[0].point == Vector3d(0, 0, -1));
+  CHECK(scene.surroundings.half_spaces[0].normal == Vector3d(0, 1, 1));
+  CHECK(scene.surroundings.half_spaces[0].velocity == Vector3d(6, 0, 0));
+  CHECK(scene.surroundings.half_spaces[0].friction == 0.25);
   CHECK(scene.time_step == 0.0005);
   CHECK(scene.steps_per_frame == 8);
   CHECK(scene.frames == 77);
@@ -122,6 +136,31 @@ TEST_CASE("every key reaches its place") {
   CHECK(output.view.up == Vector3d(0, 0, 1));
   CHECK(output.view.field_of_view == 0);
   CHECK(output.view_box->min() == Vector3d(-1, -1, -1));
+}
+
+TEST_CASE("integrators and obstacles: names, and what is said about wrong ones") {
+  CHECK(good("{" + cloth + R"(, "integrator": "implicit_euler"})").surroundings.integrator ==
+        cut::Integrator::implicit_euler);
+  CHECK(good("{" + cloth + R"(, "integrator": "semi_implicit_euler"})").surroundings.integrator ==
+        cut::Integrator::semi_implicit_euler);
+  const Scene plain = good("{" + cloth + R"(, "obstacles": [{"half_space": {}}, {"sphere": {}}]})");
+  CHECK(plain.surroundings.half_spaces[0].normal == Vector3d(0, 0, 1));
+  CHECK(plain.surroundings.spheres[0].radius == 1);
+  CHECK(error_with(R"("normal_drag": -1)") == "s.json:3: /normal_drag: cannot be negative, is -1");
+  CHECK(error_with("\"obstacles\": [{\"half_space\": {}},\n{\"half_space\": {\"normal\": [0, 0, 0]}}]") ==
+        "s.json:4: /obstacles/1/half_space/normal: cannot be zero");
+  CHECK(error_with(R"("obstacles": [{"sphere": {"radius": 0}}])") ==
+        "s.json:3: /obstacles/0/sphere/radius: has to be greater than 0, is 0");
+  CHECK(error_with(R"("obstacles": [{"sphere": {"friction": -0.5}}])") ==
+        "s.json:3: /obstacles/0/sphere/friction: cannot be negative, is -0.5");
+  CHECK(error_with(R"("obstacles": [{"half_space": {"friction": -0.5}}])") ==
+        "s.json:3: /obstacles/0/half_space/friction: cannot be negative, is -0.5");
+  CHECK(error_with(R"("obstacles": [{"sphere": {"center": [0, 0, 0]}}])") ==
+        "s.json:3: /obstacles/0/sphere/center: unknown key \"center\"; did you mean \"centre\"?");
+  CHECK(error_with(R"("obstacles": [{"sphere": {}, "half_space": {}}])") ==
+        "s.json:3: /obstacles/0: only one of these keys can be given: half_space, sphere");
+  CHECK(error_with(R"("obstacles": [{}])") ==
+        "s.json:3: /obstacles/0: one of these keys is missing: half_space, sphere");
 }
 
 TEST_CASE("every shape can be named") {
@@ -344,6 +383,9 @@ TEST_CASE("the documentation lists every key that an error message can offer") {
         std::string(R"("cutters": [{"blade": {"zzzzzz": 1}}])"),
         std::string(
             R"("cutters": [{"blade": {"edge": [[0,0,0],[0,0,1]], "keyframes": [{"zzzzzz": 1}, {}]}}])"),
+        std::string(R"("obstacles": [{"sphere": {"zzzzzz": 1}}])"),
+        std::string(R"("obstacles": [{"half_space": {"zzzzzz": 1}}])"),
+        std::string(R"("obstacles": [{"zzzzzz": 1, "sphere": {}}])"),
         std::string(R"("output": {"zzzzzz": 1})"), std::string(R"("output": {"camera": {"zzzzzz": 1}})")}) {
     std::string message = error_with(object);
     const std::size_t start = message.find("known here: ");

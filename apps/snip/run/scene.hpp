@@ -90,6 +90,8 @@ struct Scene {
   std::string material_place;
   std::vector<Anchor> anchors;
   cut::Surroundings surroundings;
+  /// Where the scene file has the obstacles of `surroundings`, for messages.
+  std::vector<std::string> half_space_places, sphere_places;
   double time_step = 0.001;
   std::size_t steps_per_frame = 20;
   std::size_t frames = 100;

@@ -157,20 +157,55 @@ OutputSettings read_output(const JsonValue& value) {
   return output;
 }
 
+void read_half_space(const JsonValue& value, Scene& scene) {
+  value.allow_keys({"point", "normal", "velocity", "friction"});
+  cut::HalfSpace half_space;
+  take(value, "point", half_space.point, vector);
+  take(value, "normal", half_space.normal, [](const JsonValue& v) { return v.nonzero_vector(); });
+  take(value, "velocity", half_space.velocity, vector);
+  take(value, "friction", half_space.friction, not_negative);
+  scene.surroundings.half_spaces.push_back(half_space);
+  scene.half_space_places.push_back(value.place());
+}
+
+void read_sphere(const JsonValue& value, Scene& scene) {
+  value.allow_keys({"centre", "radius", "velocity", "friction"});
+  cut::Sphere sphere;
+  take(value, "centre", sphere.centre, vector);
+  take(value, "radius", sphere.radius, positive);
+  take(value, "velocity", sphere.velocity, vector);
+  take(value, "friction", sphere.friction, not_negative);
+  scene.surroundings.spheres.push_back(sphere);
+  scene.sphere_places.push_back(value.place());
+}
+
+void read_obstacle(const JsonValue& value, Scene& scene) {
+  value.allow_keys({"half_space", "sphere"});
+  if (value.one_of({"half_space", "sphere"}) == "half_space")
+    read_half_space(value.at("half_space"), scene);
+  else
+    read_sphere(value.at("sphere"), scene);
+}
+
 void read_surroundings(const JsonValue& value, Scene& scene) {
   scene.surroundings.gravity = {0, 0, -9.81};
   take(value, "gravity", scene.surroundings.gravity, vector);
   take(value, "air_drag", scene.surroundings.air_drag, not_negative);
+  take(value, "normal_drag", scene.surroundings.normal_drag, not_negative);
   take(value, "wind", scene.surroundings.wind, vector);
   take(value, "integrator", scene.surroundings.integrator, [](const JsonValue& v) {
-    return std::array{cut::Integrator::forward_euler,
-                      cut::Integrator::semi_implicit_euler}[v.word({"forward_euler", "semi_implicit_euler"})];
+    return std::array{
+        cut::Integrator::forward_euler, cut::Integrator::semi_implicit_euler,
+        cut::Integrator::implicit_euler}[v.word({"forward_euler", "semi_implicit_euler", "implicit_euler"})];
   });
+  if (const auto obstacles = value.find("obstacles"))
+    for (const JsonValue& obstacle : obstacles->list()) read_obstacle(obstacle, scene);
 }
 
 void read_scene_object(const JsonValue& value, Scene& scene) {
-  value.allow_keys({"description", "cloth", "material", "anchors", "gravity", "air_drag", "wind",
-                    "integrator", "time_step", "steps_per_frame", "frames", "merge", "cutters", "output"});
+  value.allow_keys({"description", "cloth", "material", "anchors", "gravity", "air_drag", "normal_drag",
+                    "wind", "obstacles", "integrator", "time_step", "steps_per_frame", "frames", "merge",
+                    "cutters", "output"});
   take(value, "description", scene.description, text);
   scene.cloth = read_mesh_source(value.at("cloth"));
   if (const auto material = value.find("material")) read_material(*material, scene);

@@ -104,6 +104,7 @@ Result<SceneRun> SceneRun::start(const Scene& scene, const std::filesystem::path
   if (!simulation) return Error{fmt::format("{}: {}", scene.material_place, simulation.error().message)};
   SceneRun run(scene, std::move(*cloth), std::move(*mesh), std::move(*simulation));
   if (const auto held = run.hold_anchors(); !held) return held.error();
+  if (const auto checked = run.check_obstacles(); !checked) return checked.error();
   if (const auto loaded = run.load_cutters(folder); !loaded) return loaded.error();
   run.count();
   return run;
@@ -143,6 +144,25 @@ Result<> SceneRun::hold_anchors() {
     if (!any) return Error{fmt::format("{}: no node of the cloth is there", anchor.place)};
   }
   return {};
+}
+
+/// libcut's own check does not know the place in the scene file.
+Result<> SceneRun::check_obstacles() const {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : mesh_.ancestors.rest_positions) box.extend(p);
+  const double way = box.diagonal().stableNorm();
+  const auto check = [&](const auto& obstacles, const std::vector<std::string>& places) -> Result<> {
+    for (std::size_t i = 0; i < obstacles.size(); ++i)
+      if (!(obstacles[i].velocity.cwiseAbs().maxCoeff() * scene_.time_step <= way))
+        return Error{
+            fmt::format("{}: the velocity takes it further in a time step of {} s than the cloth is "
+                        "long, {:.3g}",
+                        places[i], scene_.time_step, way)};
+    return {};
+  };
+  if (const auto checked = check(scene_.surroundings.half_spaces, scene_.half_space_places); !checked)
+    return checked;
+  return check(scene_.surroundings.spheres, scene_.sphere_places);
 }
 
 Result<> SceneRun::take_over(const cut::Result<cut::Changes>& changes, const std::string& name) {
@@ -193,8 +213,7 @@ Result<> SceneRun::advance() {
   const auto moving = Clock::now();
   const auto error = simulation_.step(mesh_, scene_.time_step, scene_.steps_per_frame);
   frame_.simulation_ms = milliseconds_since(moving);
-  if (error && error->kind == cut::Error::Kind::unstable) return failed(blow_up(error->element));
-  if (error) return failed(error->message);
+  if (error) return failed(explained(*error));
   const cut::Energy energy = simulation_.energy(mesh_);
   if (!std::isfinite(energy.total())) return failed("the energy is too large to be told");
   ++frame_.number;
@@ -203,9 +222,17 @@ Result<> SceneRun::advance() {
   return {};
 }
 
-std::string SceneRun::blow_up(std::size_t node) const {
+/// What a step that failed means in terms of the scene.
+std::string SceneRun::explained(const cut::Error& error) const {
+  const std::uint64_t step = simulation_.updates() + 1;
+  if (error.kind == cut::Error::Kind::not_converged)
+    return fmt::format(
+        "the implicit step {} found no velocities that balance its forces; node {} is the furthest off: a "
+        "smaller time_step or a lower stiffness makes it easier",
+        step, error.element);
+  if (error.kind != cut::Error::Kind::unstable) return error.message;
+  const std::string where = fmt::format("the simulation blew up in step {} at node {}", step, error.element);
   const double stable = simulation_.stable_time_step(scene_.surroundings.integrator);
-  const std::string where = fmt::format("the simulation blew up at node {}", node);
   if (!(scene_.time_step > stable)) return where + ": the forces are too large";
   return fmt::format("{}: the time step of {} s is more than the {:.3g} s up to which it is stable", where,
                      scene_.time_step, stable);

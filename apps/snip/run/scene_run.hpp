@@ -54,9 +54,10 @@ class SceneRun {
   SceneRun(Scene scene, Mesh cloth, cut::HybridMesh mesh, cut::Simulation simulation);
   Result<> load_cutters(const std::filesystem::path& folder);
   Result<> hold_anchors();
+  [[nodiscard]] Result<> check_obstacles() const;
   Result<> take_over(const cut::Result<cut::Changes>& changes, const std::string& name);
   Result<> cut_due(double from, double to);
-  [[nodiscard]] std::string blow_up(std::size_t node) const;
+  [[nodiscard]] std::string explained(const cut::Error& error) const;
   void count();
 
   Scene scene_;
