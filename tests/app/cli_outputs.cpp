@@ -43,6 +43,20 @@ TEST_CASE("cli: stderr that cannot be written is no reason to stop") {
   }
 }
 
+TEST_CASE("cli: a time step that becomes too large by a cut is told of in one line, once") {
+  const Inputs inputs;
+  (void)inputs.directory.write("paper.json", R"({"cloth": {"shape": "grid", "columns": 4, "rows": 4},
+    "anchors": [{"nodes": [0, 1, 2, 3, 4, 5, 9, 10, 14, 15, 19, 20, 21, 22, 23, 24]}],
+    "material": {"mode": "paper"}, "gravity": [0, 0, 0], "time_step": 0.0245, "steps_per_frame": 1,
+    "frames": 12, "cutters": [{"at": 0.1, "times": 2, "interval": 0.05, "step": [0, 1, 0], "mesh":
+      {"shape": "plane", "centre": [2, 2, 0], "u": [2.4, 0, 0], "v": [0, 0, 1]}}]})");
+  const auto run = inputs.snip("run paper.json -o out --no-images");
+  CHECK(run.exit_code == 0);
+  const std::size_t warning = run.err.find("snip: warning: after the cuts of frame ");
+  CHECK_MESSAGE(warning != std::string::npos, run.err);
+  CHECK(run.err.find("warning", warning + 10) == std::string::npos);
+}
+
 TEST_CASE("cli: a run goes on when nobody listens any more") {
   const Inputs inputs;
   const std::string nobody = " | sh -c 'exec <&-; sleep 0.4'";

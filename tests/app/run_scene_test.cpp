@@ -334,6 +334,36 @@ TEST_CASE("a run that blows up in small steps blames the forces") {
   CHECK(advanced.error().message.find(": the forces are too large") != std::string::npos);
 }
 
+TEST_CASE("a time step that is too large only after a cut is told of then, once") {
+  // A slit along physics edges, with the border held: in paper mode its ends get a spring more and no mass.
+  const std::string text = R"({"cloth": {"shape": "grid", "columns": 4, "rows": 4},
+    "anchors": [{"nodes": [0, 1, 2, 3, 4, 5, 9, 10, 14, 15, 19, 20, 21, 22, 23, 24]}],
+    "cutters": [{"at": 0.1, "mesh": {"shape": "plane", "centre": [2, 2, 0], "u": [2.4, 0, 0], "v": [0, 0, 1]}}],
+    "gravity": [0, 0, 0], "frames": 12, "material": {"mode": "paper"}, "time_step": )";
+  SceneRun probe = start(scene_of(text + "0.001}"));
+  const auto stable = [&] {
+    return probe.simulation().stable_time_step(cut::Integrator::semi_implicit_euler);
+  };
+  const double before = stable();
+  finish(probe);
+  const double after = stable();
+  REQUIRE(after < before);
+  CHECK(probe.warning().empty());
+
+  const double between = (after + before) / 2;
+  SceneRun run = start(scene_of(text + fmt::format("{}}}", between)));
+  CHECK(run.warning().empty());
+  finish(run);
+  CHECK_MESSAGE(run.warning().starts_with("after the cuts of frame "), run.warning());
+  CHECK(run.warning().find(fmt::format("the {:.3g} s up to which", after)) != std::string::npos);
+
+  Scene implicit = scene_of(text + fmt::format("{}}}", between));
+  implicit.surroundings.integrator = cut::Integrator::implicit_euler;
+  SceneRun without = start(implicit);
+  finish(without);
+  CHECK(without.warning().empty());
+}
+
 TEST_CASE("a step that fails is named, counted from the start of the run, and so is its node") {
   SceneRun run = start(scene_of("{" + sheet + R"(, "material": {"stiffness": 1e6}, "time_step": 0.01})"));
   snip::Result<> advanced;

@@ -17,8 +17,11 @@ std::string progress_bar(std::size_t done, std::size_t total) {
 
 Progress::Progress(std::size_t total) : total_(total), terminal_(isatty(STDERR_FILENO) == 1) {}
 
-Progress::~Progress() {
+Progress::~Progress() { clear(); }
+
+void Progress::clear() {
   if (bar_shown_) print_err("\r\x1b[K");
+  bar_shown_ = false;
 }
 
 void Progress::update(std::size_t done, const std::string& note) {

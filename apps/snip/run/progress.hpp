@@ -15,6 +15,9 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
+  /// Makes room for a line of text; the next update brings the bar back.
+  void clear();
+
   /// @param note shown behind the numbers
   void update(std::size_t done, const std::string& note);
 

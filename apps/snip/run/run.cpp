@@ -45,6 +45,14 @@ Result<OutputFile> begin_table(const std::filesystem::path& path) {
 Result<> all_frames(SceneRun& run, OutputFile* table, PictureFiles* pictures, Totals& totals) {
   const std::size_t count = run.scene().frames;
   Progress progress(count);
+  bool warned = false;
+  const auto warn = [&] {
+    if (warned || run.warning().empty()) return;
+    progress.clear();
+    report_warning(run.warning());
+    warned = true;
+  };
+  warn();
   for (;;) {
     totals.add(run.frame());
     if (table)
@@ -55,7 +63,9 @@ Result<> all_frames(SceneRun& run, OutputFile* table, PictureFiles* pictures, To
     const std::size_t pieces = run.frame().pieces;
     progress.update(run.frame().number, fmt::format("{} piece{}", pieces, pieces == 1 ? "" : "s"));
     if (is_last) return {};
-    if (const auto advanced = run.advance(); !advanced) return advanced;
+    const auto advanced = run.advance();
+    warn();
+    if (!advanced) return advanced;
   }
 }
 
@@ -94,7 +104,6 @@ Result<> run_scene(const RunOptions& options) {
   scene->frames = options.frames.value_or(scene->frames);
   auto run = SceneRun::start(*scene, options.scene.parent_path());
   if (!run) return run.error();
-  if (!run->warning().empty()) report_warning(run->warning());
 
   const std::filesystem::path folder =
       options.output_folder.empty() ? options.scene.stem() : options.output_folder;

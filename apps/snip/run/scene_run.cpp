@@ -84,11 +84,6 @@ SceneRun::SceneRun(Scene scene, Mesh cloth, cut::HybridMesh mesh, cut::Simulatio
       pieces_(cut::pieces(mesh_)),
       colours_(mesh_, pieces_) {
   simulation_.surroundings = scene_.surroundings;
-  const double stable = simulation_.stable_time_step(scene_.surroundings.integrator);
-  if (scene_.time_step > stable)
-    warning_ =
-        fmt::format("the time step of {} s is more than the {:.3g} s up to which the simulation is stable",
-                    scene_.time_step, stable);
 }
 
 Result<SceneRun> SceneRun::start(const Scene& scene, const std::filesystem::path& folder) {
@@ -106,6 +101,7 @@ Result<SceneRun> SceneRun::start(const Scene& scene, const std::filesystem::path
   if (const auto held = run.hold_anchors(); !held) return held.error();
   if (const auto checked = run.check_obstacles(); !checked) return checked.error();
   if (const auto loaded = run.load_cutters(folder); !loaded) return loaded.error();
+  run.watch_time_step("");
   run.count();
   return run;
 }
@@ -208,7 +204,10 @@ Result<> SceneRun::advance() {
   const auto start = Clock::now();
   const auto cut = cut_due(from, to);
   frame_.cut_ms = milliseconds_since(start);
-  if (mesh_.topology_version != counted_version_) count();
+  if (mesh_.topology_version != counted_version_) {
+    count();
+    watch_time_step(fmt::format("after the cuts of frame {} ", frame_.number + 1));
+  }
   if (!cut) return failed(cut.error().message);
   const auto moving = Clock::now();
   const auto error = simulation_.step(mesh_, scene_.time_step, scene_.steps_per_frame);
@@ -220,6 +219,16 @@ Result<> SceneRun::advance() {
   frame_.time = to;
   frame_.energy = energy;
   return {};
+}
+
+/// Cuts can make the stable step smaller: in paper mode without a bound.
+void SceneRun::watch_time_step(const std::string& when) {
+  if (!warning_.empty()) return;
+  const double stable = simulation_.stable_time_step(scene_.surroundings.integrator);
+  if (scene_.time_step > stable)
+    warning_ =
+        fmt::format("{}the time step of {} s is more than the {:.3g} s up to which the simulation is stable",
+                    when, scene_.time_step, stable);
 }
 
 /// What a step that failed means in terms of the scene.

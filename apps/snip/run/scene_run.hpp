@@ -46,8 +46,8 @@ class SceneRun {
   [[nodiscard]] const PieceColours& colours() const { return colours_; }
   /// The static cutters' meshes, where they cut first.
   [[nodiscard]] const std::vector<cut::TriangleMesh>& cutter_meshes() const { return cutter_meshes_; }
-  /// What people should know before they wait: the time step exceeds the one estimated to be stable. Or
-  /// empty.
+  /// That the time step exceeds the one estimated to be stable, as soon as it does: at the start, or after a
+  /// cut. Or empty.
   [[nodiscard]] const std::string& warning() const { return warning_; }
 
  private:
@@ -57,6 +57,7 @@ class SceneRun {
   [[nodiscard]] Result<> check_obstacles() const;
   Result<> take_over(const cut::Result<cut::Changes>& changes, const std::string& name);
   Result<> cut_due(double from, double to);
+  void watch_time_step(const std::string& when);
   [[nodiscard]] std::string explained(const cut::Error& error) const;
   void count();
 
