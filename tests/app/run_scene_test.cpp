@@ -456,6 +456,26 @@ TEST_CASE("a picture shows physics, anchors, cuts and cutters, unless they are s
   CHECK(less.panes.empty());
 }
 
+TEST_CASE("a picture shows obstacles where they are") {
+  SceneRun run = start(scene_of("{" + sheet + R"(, "gravity": [0, 0, 0], "frames": 5, "obstacles": [
+    {"sphere": {"centre": [0, 0, 9], "radius": 0.5, "velocity": [10, 0, 0]}},
+    {"half_space": {"point": [7, 7, -3], "normal": [0, 0, 2]}}]})"));
+  finish(run);
+  const snip::Surface surface = snip::scene_drawing(run, 30).surface;
+  CHECK(surface.colours.size() == surface.triangles.size());
+  Eigen::AlignedBox3d ball, floor;
+  for (const Eigen::Vector3d& p : surface.positions) {
+    if (p.z() > 5) ball.extend(p);
+    if (p.z() < -2) floor.extend(p);
+  }
+  CHECK(ball.center().isApprox(Eigen::Vector3d(1, 0, 9), 1e-3));
+  CHECK(ball.sizes().isApprox(Eigen::Vector3d::Ones(), 0.03));
+  CHECK(floor.contains(Eigen::Vector3d(0, 0, floor.min().z())));
+  CHECK(floor.contains(Eigen::Vector3d(1, 1, floor.min().z())));
+  CHECK(floor.sizes().z() == 0);
+  CHECK(std::abs(floor.min().z() + 3) < 0.02);
+}
+
 TEST_CASE("cuts are drawn on the lips of the cloth, wherever it has moved") {
   // A slit within one triangle, and a cut along a physics edge: each point drawn lies on the render mesh.
   Scene scene = scene_of("{" + sheet + R"(, "frames": 5, "cutters": [

@@ -84,6 +84,6 @@ TEST_CASE("the frames in docs/pictures are what snip run draws") {
     const bool same = now == committed || look_the_same(decoded(now), decoded(committed));
     CHECK_MESSAGE(same, name << " has changed; if so on purpose: SNIP_WRITE_PICTURES=1 test_docs");
   }
-  CHECK(frames >= 9);
+  CHECK(frames >= 11);
   fs::remove_all(folder);
 }

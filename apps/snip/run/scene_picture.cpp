@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <scenes/cutters.hpp>
+#include <scenes/surfaces.hpp>
 
 namespace snip {
 namespace {
@@ -15,6 +16,7 @@ constexpr Colour anchor_blue{25, 60, 150};
 constexpr Colour cut_red{170, 40, 30};
 constexpr Colour cutter_red{205, 60, 60};
 constexpr Colour blade_blue{60, 90, 190};
+constexpr Colour obstacle_grey{190, 190, 195};
 
 /// For how long a cutter that cuts at once is shown before and after, seconds.
 constexpr double shown_before = 0.1, shown_after = 0.2;
@@ -29,6 +31,30 @@ void add_surface(const SceneRun& run, Drawing& drawing) {
     surface.triangles.push_back({t.vertices[0].value, t.vertices[1].value, t.vertices[2].value});
     surface.colours.push_back(
         piece_colour(run.scene().output.colour_pieces ? run.colours().of(t.triangle) : 0));
+  }
+}
+
+void add_solid(const cut::TriangleMesh& mesh, Surface& surface) {
+  const auto first = static_cast<std::uint32_t>(surface.positions.size());
+  surface.positions.insert(surface.positions.end(), mesh.positions.begin(), mesh.positions.end());
+  for (const auto& [a, b, c] : mesh.triangles) {
+    surface.triangles.push_back({first + a, first + b, first + c});
+    surface.colours.push_back(obstacle_grey);
+  }
+}
+
+/// Where they are now, a little smaller: only nodes are kept out, so that cloth dips in between them.
+void add_obstacles(const SceneRun& run, Surface& surface) {
+  Eigen::AlignedBox3d cloth;
+  for (const Vector3d& p : run.cloth().positions) cloth.extend(p);
+  const double size = cloth.diagonal().stableNorm();
+  for (const cut::Sphere& ball : run.simulation().surroundings.spheres)
+    add_solid(scenes::moved(scenes::sphere(4, 0.98 * ball.radius), ball.centre), surface);
+  for (const cut::HalfSpace& half_space : run.simulation().surroundings.half_spaces) {
+    const Vector3d normal = half_space.normal.stableNormalized(), u = normal.unitOrthogonal();
+    const double height = (cloth.center() - half_space.point).dot(normal) + 0.005 * size;
+    const Vector3d middle = cloth.center() - height * normal;
+    add_solid(scenes::plane(middle, 3 * size * u, 3 * size * normal.cross(u)), surface);
   }
 }
 
@@ -149,6 +175,7 @@ Drawing scene_drawing(const SceneRun& run, double pixels_per_edge) {
   const double share = pixels_per_edge / 15, width = std::clamp(share < 1 ? share * share : share, 0.05, 2.0);
   Drawing drawing;
   add_surface(run, drawing);
+  add_obstacles(run, drawing.surface);
   if (run.scene().output.show_physics) {
     add_physics(run, width, drawing);
     add_cuts(run.mesh(), std::max(0.8 * width, 0.8), drawing);

@@ -1,6 +1,6 @@
 /// @file
 /// What a frame of a scene looks like: the shaded render mesh, the physics mesh over it, the cuts, the
-/// cutters.
+/// cutters, the obstacles.
 #pragma once
 #include "snip/render/camera.hpp"
 #include "snip/render/drawing.hpp"
