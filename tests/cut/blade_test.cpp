@@ -133,6 +133,25 @@ TEST_CASE("two layers of cloth are cut by one blade, each from where it was cut 
   CHECK(scene.pieces() == 4);
 }
 
+TEST_CASE("cloth that is nowhere is named as the Cutter names it; where it is again, the blade goes on") {
+  Scene scene;
+  scene.lead_to(-0.5, 2.6);
+  scene.lead_to(4.3, 2.6);
+  const cut::NodeId node = scene.mesh.buffers.triangles[scene.blade.tips().at(0).triangle.index()].nodes[0];
+  Eigen::Vector3d& place = scene.mesh.positions[node.index()];
+  const Eigen::Vector3d was = place;
+  place.x() = std::nan("");
+  scene.mesh.moved();
+  const auto changes = scene.blade.cut_to(scene.mesh, {{5, 2.6, -1}, {5, 2.6, 1}});
+  REQUIRE_FALSE(changes.has_value());
+  CHECK(changes.error().kind == cut::Error::Kind::not_finite);
+  CHECK(changes.error().element == node.index());
+  place = was;
+  scene.mesh.moved();
+  scene.lead_to(10, 2.6);
+  CHECK(scene.pieces() == 2);
+}
+
 TEST_CASE("a blade that is none is an error and changes nothing") {
   Scene scene;
   const auto fails = [&](const std::vector<Eigen::Vector3d>& edge) {

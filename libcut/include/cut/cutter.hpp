@@ -25,7 +25,7 @@ struct StepTimings {
 
 /// Cuts one hybrid mesh, again and again. Remembers between calls which nodes its last cut was part of (δc,
 /// §4.2) and, while the mesh stands still, where the triangles are (a tree of their boxes). Use one Cutter
-/// for each blade.
+/// for each blade; for one that moves while the cloth does, a Blade (cut/blade.hpp).
 class Cutter {
  public:
   /// Runs what triangles are cut by themselves. Results are the same to the bit whatever it does.

@@ -180,12 +180,12 @@ Result<Changes> Blade::cut_to(HybridMesh& mesh, const std::vector<Eigen::Vector3
   if (edge.size() < 2 || (!edge_.empty() && edge_.size() != edge.size()))
     return Error{Error::Kind::bad_parameter, "a blade has at least two points, and always as many as before",
                  0};
-  BroadPhase& broad_phase = cutter_.memory_->broad_phase;
+  const BroadPhase& broad_phase = cutter_.memory_->broad_phase;
   TriangleMesh cutter{edge, {}};
   if (!edge_.empty()) {
-    Error error{};
-    if (!broad_phase.update(mesh, error)) return error;
     std::vector<Tip> tips = tips_;
+    // The Cutter names a node that is nowhere.
+    std::erase_if(tips, [&](const Tip& tip) { return !position(mesh, tip).allFinite(); });
     std::vector<Drift> known;
     for (Tip& tip : tips) {
       follow_cuts(mesh, tip);

@@ -70,7 +70,7 @@ std::vector<CandidatePair> BroadPhase::candidates(const HybridMesh& mesh, const 
     faces.emplace_back(box_of(cutter.positions[t[0]], cutter.positions[t[1]], cutter.positions[t[2]], slack),
                        i);
   }
-  if (has_tree_) {
+  if (has_tree_ && knows(mesh)) {
     for (const auto& [box, i] : faces)
       tree_.query(spatial::intersects(box), [&, face = i](TriangleId triangle) { add_pair(triangle, face); });
     return pairs;

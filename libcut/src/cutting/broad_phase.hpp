@@ -29,9 +29,10 @@ class BroadPhase {
   /// were.
   void add(const HybridMesh& mesh, const std::vector<TriangleCopy>& copies);
 
-  /// All pairs whose boxes are within `slack` of each other, in no particular order.
-  /// @pre update was called and the mesh is as it was then
-  /// Complexity: by the size of the cutter and the result; O(triangles) in addition when there is no tree.
+  /// All pairs whose boxes are within `slack` of each other, in no particular order. Also for a mesh that
+  /// `update` has not seen yet.
+  /// Complexity: by the size of the cutter and the result; O(triangles) in addition when there is no tree of
+  /// the mesh as it is.
   [[nodiscard]] std::vector<CandidatePair> candidates(const HybridMesh& mesh, const TriangleMesh& cutter,
                                                       double slack) const;
 
