@@ -190,8 +190,9 @@ Result<> SceneRun::cut_due(double from, double to) {
       return cut;
   }
   cut::Cutter& tearing = cutters_.back();
-  return take_over(tearing.cut(mesh_, cut::tears(mesh_, scene_.tear_limit, tearing.distances())),
-                   scene_.material_place);
+  const cut::TriangleMesh tears = cut::tears(mesh_, scene_.tear_limit, tearing.distances());
+  if (tears.triangles.empty()) return {};  // a Cutter would look at all of the cloth for nothing
+  return take_over(tearing.cut(mesh_, tears), scene_.material_place);
 }
 
 Result<> SceneRun::advance() {
