@@ -22,7 +22,7 @@ class ThreadPool {
   ~ThreadPool() {
     {
       const std::scoped_lock lock(mutex_);
-      turn_ = nullptr;
+      ends_ = true;
       ++loops_;
     }
     begin_.notify_all();
@@ -37,31 +37,32 @@ class ThreadPool {
       turn_ = &turn;
       count_ = count;
       next_ = 0;
-      at_work_ = helpers_.size();
       ++loops_;
     }
     begin_.notify_all();
-    take_turns();
-    // The others are about to end, too.
+    for (std::size_t i = next_++; i < count; i = next_++) turn(i);
+    {
+      const std::scoped_lock lock(mutex_);
+      turn_ = nullptr;  // who wakes up only now has nothing to do
+    }
     while (at_work_ != 0) std::this_thread::yield();
   }
 
  private:
-  void take_turns() {
-    for (std::size_t i = next_++; i < count_; i = next_++) (*turn_)(i);
-  }
-
   void help() {
     for (std::size_t done = 0;;) {
       // Loops often follow each other closely, and waking up takes longer than many a loop.
       for (int i = 0; i < patience && loops_ == done; ++i) std::this_thread::yield();
-      {
-        std::unique_lock lock(mutex_);
-        begin_.wait(lock, [&] { return loops_ != done; });
-        done = loops_;
-        if (turn_ == nullptr) return;
-      }
-      take_turns();
+      std::unique_lock lock(mutex_);
+      begin_.wait(lock, [&] { return loops_ != done; });
+      if (ends_) return;
+      done = loops_;
+      if (turn_ == nullptr) continue;
+      ++at_work_;
+      const Executor::Turn& turn = *turn_;
+      const std::size_t count = count_;
+      lock.unlock();
+      for (std::size_t i = next_++; i < count; i = next_++) turn(i);
       --at_work_;
     }
   }
@@ -71,9 +72,10 @@ class ThreadPool {
   std::condition_variable begin_;
   std::atomic<std::size_t> loops_ = 0;  ///< number of the loop, so that a helper takes part in it once
   std::atomic<std::size_t> next_ = 0;
-  std::atomic<std::size_t> at_work_ = 0;  ///< helpers that have not finished this loop
-  const Executor::Turn* turn_ = nullptr;  ///< none: the pool ends
+  std::atomic<std::size_t> at_work_ = 0;  ///< helpers that take part in the loop
+  const Executor::Turn* turn_ = nullptr;  ///< of the loop that runs
   std::size_t count_ = 0;
+  bool ends_ = false;
   std::vector<std::thread> helpers_;
 };
 

@@ -1,0 +1,208 @@
+// The speed of the mass-spring-damper simulation, and of cutting on several threads, as tables in Markdown
+// (bench/results/msdm.md). All programs of a table take turns in one process; times are those of the wall
+// clock, the least of all rounds.
+#include <cstdio>
+#include <cstdlib>
+#include <cut/adapt/threads.hpp>
+#include <cut/cutter.hpp>
+#include <memory>
+#include <scenes/cutters.hpp>
+
+#include "msdm/measure.hpp"
+#include "msdm/plain.hpp"
+#ifdef SNIP_BENCH_BULLET
+#include "msdm/bullet.hpp"
+#endif
+
+namespace {
+
+using msdm::Contender;
+
+/// Bytes per second of a[i] = b[i] + c[i] in arrays that no cache holds.
+double bandwidth() {
+  const std::size_t size = 8'000'000;
+  std::vector<double> a(size, 1), b(size, 2), c(size, 3);
+  std::vector<Contender> sum{{"sum", [&] {
+                                for (std::size_t i = 0; i < size; ++i) a[i] = b[i] + c[i];
+                              }}};
+  msdm::take_turns(sum, 15);
+  if (a[size / 2] != 5) std::abort();
+  return static_cast<double>(3 * size * sizeof(double)) / (sum[0].least() * 1e-3);
+}
+
+/// What a step has to move: position and velocity of a node in and out, padded to four numbers, and the
+/// inverse of its mass; two ends, rest length, stiffness and damping of a spring.
+double bytes_of_step(const cut::Simulation& simulation) {
+  return 136.0 * static_cast<double>(simulation.node_count()) +
+         32.0 * static_cast<double>(simulation.spring_count());
+}
+
+struct Simulated {
+  cut::HybridMesh mesh;
+  cut::Simulation simulation;
+
+  explicit Simulated(cut::HybridMesh cloth, std::size_t threads = 1)
+      : mesh(std::move(cloth)), simulation(*cut::Simulation::build(mesh, msdm::material)) {
+    simulation.surroundings.gravity = {0, 0, -9.81};
+    simulation.surroundings.longest_way = 1e9;
+    simulation.anchor(cut::NodeId{0u});
+    if (threads > 1) simulation.executor = cut::thread_executor(threads);
+    msdm::ripple(mesh.positions);
+  }
+  void step(std::size_t count) {
+    if (const auto error = simulation.step(mesh, msdm::time_step, count)) {
+      std::fputs(error->message.c_str(), stderr);
+      std::abort();
+    }
+  }
+};
+
+void speeds() {
+  const double speed = bandwidth();
+  std::printf("Memory: %.1f GB/s\n\n", speed * 1e-9);
+  std::puts(
+      "| nodes | springs | ns per spring | plain loop / ours | one thread / two | Bullet, a step / ours | "
+      "its "
+      "links alone / ours | ours / what memory allows | updates per second / 63,000 |");
+  std::puts("|--:|--:|--:|--:|--:|--:|--:|--:|--:|");
+  for (const std::size_t cells : {0, 31, 99, 315, 999}) {
+    const cut::HybridMesh mesh = msdm::cloth(cells);
+    Simulated ours(mesh), threads(mesh, 2);
+    msdm::PlainCloth plain(mesh);
+    const std::size_t springs = ours.simulation.spring_count();
+    const std::size_t steps = std::max<std::size_t>(4, 300'000 / springs);
+    const auto times = [steps](auto step) {
+      return [steps, step] {
+        for (std::size_t i = 0; i < steps; ++i) step();
+      };
+    };
+    std::vector<Contender> all{{"ours", [&] { ours.step(steps); }},
+                               {"threads", [&] { threads.step(steps); }},
+                               {"plain", times([&] { plain.step(); })}};
+#ifdef SNIP_BENCH_BULLET
+    msdm::BulletCloth bullet(mesh);
+    all.push_back({"bullet", times([&] { bullet.step(); })});
+    all.push_back({"links", times([&] { bullet.links(); })});
+#endif
+    msdm::take_turns(all, cells > 500 ? 15 : 40);
+    const double best = all[0].least(), step = best / static_cast<double>(steps);
+    std::printf("| %zu | %zu | %.2f | %.2f | %.2f | ", ours.simulation.node_count(), springs,
+                step * 1e6 / static_cast<double>(springs), all[2].least() / best, best / all[1].least());
+    if (all.size() > 3)
+      std::printf("%.2f | %.2f | ", all[3].least() / best, all[4].least() / best);
+    else
+      std::printf("| | ");
+    std::printf("%.2f | %.1f |\n", step * 1e-3 * speed / bytes_of_step(ours.simulation), 1e3 / step / 63000);
+    if (ours.mesh.positions != threads.mesh.positions) std::puts("NOT THE SAME with two threads");
+  }
+}
+
+/// Speed per spring of a sheet that was cut so often, and of the same sheet uncut.
+void after_cuts(std::size_t cuts) {
+  const std::size_t cells = 99;
+  Simulated fresh(msdm::cloth(cells)), worn(msdm::cloth(cells));
+  cut::Cutter knife(cut::default_merge_distances(worn.mesh));
+  std::uint64_t random = 1;
+  const auto number = [&](double most) {
+    random = random * 6364136223846793005u + 1442695040888963407u;
+    return static_cast<double>(random >> 40) / static_cast<double>(1 << 24) * most;
+  };
+  for (std::size_t i = 0; i < cuts; ++i) {
+    const Eigen::Vector3d from{number(cells), number(cells), 0};
+    const Eigen::Vector3d to = from + Eigen::Vector3d(number(6) - 3, number(6) - 3, 0);
+    const auto changes = knife.cut(worn.mesh, scenes::ribbon({from, to}, {0.01, 0, 4}));
+    if (!changes || worn.simulation.apply(*changes, worn.mesh)) std::abort();
+  }
+  std::vector<Contender> both{{"fresh", [&] { fresh.step(20); }}, {"worn", [&] { worn.step(20); }}};
+  msdm::take_turns(both, 60);
+  const double per_spring = static_cast<double>(fresh.simulation.spring_count()) /
+                            static_cast<double>(worn.simulation.spring_count());
+  std::printf("\nAfter %zu cuts: %zu springs of %zu, %.3f times the time per spring\n", cuts,
+              worn.simulation.spring_count(), fresh.simulation.spring_count(),
+              both[1].least() / both[0].least() * per_spring);
+}
+
+/// 10,368 triangles, all of them cut at once by 72 walls.
+void cut_at_once() {
+  const std::size_t n = 72;
+  std::vector<cut::TriangleMesh> walls;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double x = static_cast<double>(i) + 0.37;
+    walls.push_back(scenes::ribbon({{x, -1, 0}, {x + 0.2, n + 1.0, 0}}, {0.1, 0, 2}));
+  }
+  const cut::TriangleMesh cutter = scenes::joined(walls);
+  const cut::HybridMesh cloth = msdm::cloth(n);
+  const cut::Executor two = cut::thread_executor(2);
+  std::array<cut::StepTimings, 2> steps{};
+  std::array<cut::Buffers, 2> results;
+  std::array<std::vector<double>, 2> times;
+  for (std::size_t round = 0; round < 40; ++round) {
+    const std::size_t which = round % 2;
+    cut::HybridMesh mesh = cloth;
+    cut::Cutter knife(cut::default_merge_distances(mesh));
+    if (which == 1) knife.executor = two;
+    if (!knife.cut(mesh, cutter)) std::abort();
+    const cut::StepTimings& t = knife.timings();
+    const double sum = t.broad_phase + t.detect + t.merge_endpoints + t.arrange + t.reconnect + t.publish;
+    if (times[which].empty() || sum < *std::min_element(times[which].begin(), times[which].end()))
+      steps[which] = t;
+    times[which].push_back(sum);
+    results[which] = std::move(mesh.buffers);
+  }
+  std::puts("\n| threads | all, ms | detect | merge endpoints | arrange | reconnect | publish |");
+  std::puts("|--:|--:|--:|--:|--:|--:|--:|");
+  for (std::size_t which = 0; which < 2; ++which) {
+    const cut::StepTimings& t = steps[which];
+    std::printf("| %zu | %.1f | %.1f | %.1f | %.1f | %.1f | %.1f |\n", which + 1,
+                *std::min_element(times[which].begin(), times[which].end()), t.detect, t.merge_endpoints,
+                t.arrange, t.reconnect, t.publish);
+  }
+  if (!(results[0] == results[1])) std::puts("NOT THE SAME with two threads");
+}
+
+/// Two seconds at 60 frames per second of a sheet with cells of 1 cm that hangs on two corners, while a blade
+/// goes through it at half a metre per second.
+void scene(std::size_t cells) {
+  using Clock = std::chrono::steady_clock;
+  cut::HybridMesh mesh = *cut::HybridMesh::build(scenes::grid(cells, cells, 0.01));
+  cut::Simulation simulation = *cut::Simulation::build(mesh, {cut::MaterialMode::conserving, 0.2, 100, 0.01});
+  cut::Cutter knife(cut::default_merge_distances(mesh));
+  simulation.executor = knife.executor = cut::thread_executor(2);
+  simulation.surroundings.gravity = {0, -9.81, 0};
+  simulation.surroundings.air_drag = 0.05;
+  simulation.anchor(cut::NodeId{cells * (cells + 1)});
+  simulation.anchor(cut::NodeId{(cells + 1) * (cells + 1) - 1});
+  const double frame = 1.0 / 60;
+  const double limit = 0.5 * simulation.stable_time_step(simulation.surroundings.integrator);
+  const auto substeps = static_cast<std::size_t>(frame / limit) + 1;
+  std::vector<double> times;
+  double cutting = 0;
+  for (int i = 0; i < 120; ++i) {
+    const Clock::time_point begin = Clock::now();
+    if (simulation.step(mesh, frame / static_cast<double>(substeps), substeps)) std::abort();
+    const Clock::time_point stepped = Clock::now();
+    const double x = -0.01 + 0.5 * frame * i, y = 0.005 * static_cast<double>(cells);
+    const auto changes = knife.cut(mesh, scenes::ribbon({{x, y, 0}, {x + 0.5 * frame, y, 0}}, {0, 0.01, 2}));
+    if (!changes || simulation.apply(*changes, mesh)) std::abort();
+    const Clock::time_point end = Clock::now();
+    times.push_back(std::chrono::duration<double, std::milli>(end - begin).count());
+    cutting += std::chrono::duration<double, std::milli>(end - stepped).count();
+  }
+  std::sort(times.begin(), times.end());
+  double sum = 0;
+  for (const double t : times) sum += t;
+  std::printf("| %zu | %zu | %.2f | %.2f | %.2f | %.2f | %zu |\n", 2 * cells * cells, substeps, times[60],
+              times[114], cutting / 120, 2000 / sum, simulation.node_count() - (cells + 1) * (cells + 1));
+}
+
+}  // namespace
+
+int main() {
+  speeds();
+  after_cuts(1000);
+  cut_at_once();
+  std::puts(
+      "\n| triangles | substeps | frame, ms | 19 of 20 frames, ms | of it cutting | times real time | node "
+      "copies |\n|--:|--:|--:|--:|--:|--:|--:|");
+  for (const std::size_t cells : {71, 100, 142, 200}) scene(cells);
+}
