@@ -286,7 +286,9 @@ void visit_first(const Core& core, const Metric& metric, const Filter& filter, s
       }
       for (; near != 0; near &= near - 1) {
         const std::uint32_t at = begin + static_cast<std::uint32_t>(std::countr_zero(near));
-        const S key = point_keys ? metric.point_key(boxes.coordinates(at)) : metric.key(boxes[at]);
+        const typename Core::Scalar* from = boxes.coordinates(at);
+        const S key =
+            point_keys ? metric.point_key(from) : metric.key(from, from + boxes.rows - Core::dimension);
         if (!best.wants(key)) continue;
         if (!all_pass && !filter.test(boxes[at], unwrap(leaf.values()[at]))) continue;
         best.add({key, here.place, at});
