@@ -7,19 +7,9 @@
 #include <spatial/bounding_box_ternary_tree.hpp>
 #include <vector>
 
+#include "bytes.hpp"
+
 namespace operations {
-
-class Bytes {
- public:
-  Bytes(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
-  bool empty() const { return at_ >= size_; }
-  unsigned next() { return at_ < size_ ? data_[at_++] : 0; }
-
- private:
-  const std::uint8_t* data_;
-  std::size_t size_;
-  std::size_t at_ = 0;
-};
 
 /// Few distinct numbers, so that borders touch and boxes coincide, and now and then one at the end of the
 /// type's range.

@@ -1,22 +1,27 @@
-// Random sequences of all operations against a list, the tree validated after each operation.
+// Random sequences of all operations of both containers against lists, everything checked after each.
 #include <doctest/doctest.h>
 #include <rapidcheck.h>
 
 #include <random>
 #include <string>
 
+#include "dictionary_operations.hpp"
 #include "operations.hpp"
 
 namespace {
+
+std::vector<std::uint8_t> random_bytes(std::mt19937& random) {
+  std::vector<std::uint8_t> bytes(50 + random() % 1500);
+  for (auto& b : bytes) b = static_cast<std::uint8_t>(random());
+  return bytes;
+}
 
 template <class T, std::size_t D>
 std::size_t many_sequences(unsigned seed, std::size_t wanted) {
   std::mt19937 random(seed);
   std::size_t done = 0;
-  std::vector<std::uint8_t> bytes;
   while (done < wanted) {
-    bytes.resize(50 + random() % 1500);
-    for (auto& b : bytes) b = static_cast<std::uint8_t>(random());
+    const auto bytes = random_bytes(random);
     operations::Run<T, D> run;
     const char* wrong = run.run(bytes.data(), bytes.size());
     if (wrong != nullptr) FAIL(std::string(wrong));
@@ -40,9 +45,14 @@ TEST_CASE("short sequences, shrunk when they fail") {
   property<float, 2>("float, 2 axes");
   property<double, 3>("double, 3 axes");
   property<std::int32_t, 2>("int32, 2 axes");
+  CHECK(rc::check("dictionaries", [](const std::vector<std::uint8_t>& bytes) {
+    std::size_t done = 0;
+    const char* wrong = operations::run_dictionary(bytes.data(), bytes.size(), done);
+    if (wrong != nullptr) RC_FAIL(wrong);
+  }));
 }
 
-TEST_CASE("a million operations") {
+TEST_CASE("a million operations of the tree") {
   std::size_t done = 0;
   done += many_sequences<float, 2>(1, 170000);
   done += many_sequences<double, 3>(2, 170000);
@@ -54,4 +64,15 @@ TEST_CASE("a million operations") {
   done += many_sequences<float, 1>(8, 50000);
   done += many_sequences<double, 6>(9, 20000);
   CHECK(done >= 1000000);
+}
+
+TEST_CASE("a million operations of the dictionary") {
+  std::mt19937 random(10);
+  std::size_t done = 0;
+  while (done < 1000000) {
+    const auto bytes = random_bytes(random);
+    const char* wrong = operations::run_dictionary(bytes.data(), bytes.size(), done);
+    if (wrong != nullptr) FAIL(std::string(wrong));
+  }
+  MESSAGE(done, " operations");
 }

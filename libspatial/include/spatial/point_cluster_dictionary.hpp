@@ -62,6 +62,32 @@ class PointClusterDictionary {
               squared_ <= std::numeric_limits<double>::max();
   }
 
+  PointClusterDictionary(const PointClusterDictionary&) = default;
+  PointClusterDictionary& operator=(const PointClusterDictionary&) = default;
+  /// The other dictionary is empty afterwards.
+  PointClusterDictionary(PointClusterDictionary&& other) noexcept
+      : PointClusterDictionary(other.merge_distance()) {
+    swap(other);
+  }
+  PointClusterDictionary& operator=(PointClusterDictionary&& other) noexcept {
+    PointClusterDictionary moved(std::move(other));
+    swap(moved);
+    return *this;
+  }
+  ~PointClusterDictionary() = default;
+  void swap(PointClusterDictionary& other) noexcept {
+    std::swap(distance_, other.distance_);
+    std::swap(squared_, other.squared_);
+    std::swap(cells_per_length_, other.cells_per_length_);
+    std::swap(usable_, other.usable_);
+    std::swap(bound_, other.bound_);
+    std::swap(grid_, other.grid_);
+    clusters_.swap(other.clusters_);
+    centres_.swap(other.centres_);
+    std::swap(size_, other.size_);
+  }
+  friend void swap(PointClusterDictionary& a, PointClusterDictionary& b) noexcept { a.swap(b); }
+
   [[nodiscard]] T merge_distance() const { return static_cast<T>(distance_); }
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] bool empty() const { return size_ == 0; }
@@ -83,6 +109,7 @@ class PointClusterDictionary {
     const auto id = static_cast<std::uint32_t>(clusters_.size());
     const auto centre = static_cast<std::uint32_t>(centres_.size());
     const auto place = grid_.prepare(key_of(point));
+    if (centres_.size() == centres_.capacity()) centres_.reserve(2 * centres_.size() + 8);
     clusters_.push_back({std::move(value), point, centre, true});
     centres_.push_back({point, id, none});
     grid_.add(place, point, centre);
@@ -125,6 +152,10 @@ class PointClusterDictionary {
   /// those are free. @return for each id of the other dictionary, the cluster here
   std::vector<ClusterId> merge(const PointClusterDictionary& other) {
     std::vector<ClusterId> result(other.clusters_.size());
+    if (this == &other) {
+      for (const ClusterId id : other) result[id.index] = id;
+      return result;
+    }
     for (const ClusterId id : other)
       result[id.index] = insert_or_merge(other.center(id), other.value(id)).cluster;
     for (const Centre& centre : other.centres_) {
