@@ -165,7 +165,8 @@ void cut_at_once() {
 void scene(std::size_t cells) {
   using Clock = std::chrono::steady_clock;
   cut::HybridMesh mesh = *cut::HybridMesh::build(scenes::grid(cells, cells, 0.01));
-  cut::Simulation simulation = *cut::Simulation::build(mesh, {cut::MaterialMode::conserving, 0.2, 100, 0.01});
+  cut::Simulation simulation =
+      *cut::Simulation::build(mesh, {cut::MaterialMode::conserving, 0.2, 100, 0.01, 0, 0});
   cut::Cutter knife(cut::default_merge_distances(mesh));
   simulation.executor = knife.executor = cut::thread_executor(2);
   simulation.surroundings.gravity = {0, -9.81, 0};

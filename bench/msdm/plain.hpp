@@ -10,7 +10,7 @@
 namespace msdm {
 
 inline constexpr double time_step = 1e-4;
-inline const cut::Material material{cut::MaterialMode::conserving, 0.2, 100, 0.01};
+inline const cut::Material material{cut::MaterialMode::conserving, 0.2, 100, 0.01, 0, 0};
 
 /// cells × cells squares, or the paper's patch of 12 triangles for 0.
 inline cut::HybridMesh cloth(std::size_t cells) {

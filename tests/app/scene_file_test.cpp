@@ -49,7 +49,7 @@ TEST_CASE("a cloth is all that a scene needs; the rest has defaults") {
   CHECK(scene.cloth.generated.triangles.size() == 12);
   CHECK(scene.surroundings.gravity == Vector3d(0, 0, -9.81));
   CHECK(scene.surroundings.integrator == cut::Integrator::semi_implicit_euler);
-  CHECK(scene.material == cut::Material{});
+  CHECK(scene.material == Scene{}.material);
   CHECK_FALSE(scene.mass);
   CHECK(scene.frame_time() == doctest::Approx(0.02));
   CHECK(scene.frames == 100);

@@ -23,7 +23,7 @@ const std::vector<Layer> layers{
     {"lattice", {"spatial", "base"}, {"lattice_point"}},
     {"mesh",
      {"spatial", "base", "lattice"},
-     {"arrangement", "buffers", "hybrid_mesh", "merge_distances", "pieces"}},
+     {"arrangement", "bending", "buffers", "hybrid_mesh", "merge_distances", "pieces"}},
     {"changes", {"spatial", "base", "lattice", "mesh"}, {"changes"}},
     {"validate", {"spatial", "base", "lattice", "mesh", "changes"}, {"validate"}},
     {"cutting", {"spatial", "base", "lattice", "mesh", "changes", "validate"}, {"blade", "cutter"}},

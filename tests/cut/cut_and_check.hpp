@@ -1,6 +1,6 @@
 /// @file
 /// A mesh that is cut again and again, with every check after each cut: `validate`, and the change set
-/// applied to a copy of the old buffers.
+/// applied to a copy of the old buffers, and what it says of where things come from.
 #pragma once
 #include <doctest/doctest.h>
 
@@ -10,6 +10,7 @@
 #include "cut/cutter.hpp"
 #include "cut/hybrid_mesh.hpp"
 #include "cut/validate.hpp"
+#include "provenance.hpp"
 
 /// All violations as one text; empty when there is none.
 inline std::string violations(const cut::HybridMesh& mesh) {
@@ -31,10 +32,12 @@ struct Session {
   /// Cuts, checks everything that must hold, and returns what changed.
   cut::Changes cut(const cut::TriangleMesh& blade) {
     cut::Buffers copy = mesh.buffers;
+    const auto bending = provenance::all_bending_pairs(mesh);
     auto result = cutter.cut(mesh, blade);
     REQUIRE(result.has_value());
     const cut::Changes back = cut::inverse(*result, copy);
     const cut::Buffers before = copy;
+    REQUIRE(provenance::fault(*result, before, bending, mesh) == "");
     cut::apply(*result, copy);
     REQUIRE(copy == mesh.buffers);
     cut::apply(back, copy);

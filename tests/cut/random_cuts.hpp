@@ -12,6 +12,7 @@
 #include "cut/cutter.hpp"
 #include "cut/hybrid_mesh.hpp"
 #include "cut/validate.hpp"
+#include "provenance.hpp"
 #include "scenes/cloths.hpp"
 #include "scenes/cutters.hpp"
 #include "scenes/surfaces.hpp"
@@ -183,10 +184,13 @@ inline std::string run(const std::uint8_t* data, std::size_t size, unsigned most
       mesh.moved();
     }
     cut::Buffers copy = mesh.buffers;
+    const auto bending = provenance::all_bending_pairs(mesh);
     const auto result = knife.cut(mesh, cutter(bytes, input));
     if (!result) return "cut " + std::to_string(i) + ": " + result.error().message;
     const cut::Changes back = cut::inverse(*result, copy);
     const cut::Buffers before = copy;
+    if (const std::string fault = provenance::fault(*result, before, bending, mesh); !fault.empty())
+      return "cut " + std::to_string(i) + ": " + fault;
     cut::apply(*result, copy);
     if (!(copy == mesh.buffers))
       return "cut " + std::to_string(i) + ": the change set does not give the new buffers";

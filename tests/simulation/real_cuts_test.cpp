@@ -5,7 +5,10 @@
 #include <rapidcheck.h>
 
 #include <algorithm>
+#include <cut/bending.hpp>
 #include <cut/cutter.hpp>
+#include <cut/validate.hpp>
+#include <map>
 #include <scenes/cutters.hpp>
 #include <scenes/surfaces.hpp>
 
@@ -44,6 +47,21 @@ cut::TriangleMesh random_blade(const cut::HybridMesh& mesh, std::mt19937& random
                        Eigen::Vector3d(0, 0, 4) + testing::random_vector(random, 0.5));
 }
 
+/// Stiffness and damping of the bending springs, by nodes and rest length: their order is nobody's business.
+using BendingOf = std::map<std::pair<std::array<std::uint32_t, 2>, double>, std::array<double, 2>>;
+
+BendingOf bending_of(const cut::Simulation& simulation) {
+  const cut::SpringArrays& springs = simulation.bending_springs();
+  BendingOf result;
+  for (std::size_t s = 0; s < springs.nodes.size(); ++s) {
+    if (springs.nodes[s][0] == springs.nodes[s][1]) continue;
+    auto& sum = result[{springs.nodes[s], springs.rest_length[s]}];
+    sum[0] += springs.stiffness[s];
+    sum[1] += springs.damping[s];
+  }
+  return result;
+}
+
 /// Local updates leave the masses and springs of a simulation that is built from the cut mesh, but for what
 /// old cuts were bent by new ones: half a lattice cell each time.
 bool same_constants(const cut::Simulation& a, const cut::Simulation& b, const cut::HybridMesh& mesh,
@@ -53,6 +71,13 @@ bool same_constants(const cut::Simulation& a, const cut::Simulation& b, const cu
     same = same && std::abs(v - w) <= tolerance * unit;
   };
   const cut::Material& material = a.material();
+  const BendingOf bending_a = bending_of(a), bending_b = bending_of(b);
+  same = same && bending_a.size() == bending_b.size();
+  for (auto i = bending_a.begin(), j = bending_b.begin(); same && i != bending_a.end(); ++i, ++j) {
+    same = i->first == j->first;
+    compare(i->second[0], j->second[0], material.bending_stiffness);
+    compare(i->second[1], j->second[1], material.bending_damping);
+  }
   for (std::size_t n = 0; same && n < mesh.positions.size(); ++n)
     compare(a.mass(NodeId{n}), b.mass(NodeId{n}), material.density);
   for (std::size_t s = 0; same && s < mesh.buffers.springs.size(); ++s) {
@@ -70,13 +95,15 @@ struct Cloth {
   double time_step;
 
   explicit Cloth(MaterialMode mode)
-      : simulation(testing::simulated(mesh, {mode, 0.2, 100, 0.01})),
+      : simulation(testing::simulated(mesh, {mode, 0.2, 100, 0.01, *rc::gen::element(0.0, 5.0, 200.0),
+                                             *rc::gen::element(0.0, 0.0005, 0.02)})),
         time_step(simulation.cut_proof_time_step(Integrator::semi_implicit_euler, mesh) / 2) {
     testing::shake(mesh, simulation, random, 0.01, 0.1);
   }
   cut::Changes cut_once() {
     auto changes = cutter.cut(mesh, random_blade(mesh, random));
     RC_ASSERT(changes.has_value());
+    RC_ASSERT(cut::validate(mesh, 1).empty());
     return std::move(changes).value();
   }
 };
@@ -104,6 +131,8 @@ TEST_CASE("Conserving material over random cuts of moving cloth") {
       RC_ASSERT((simulation.centre_of_mass(mesh) - centre).norm() <= 1e-12 * reach);
       for (std::size_t n = 0; n < mesh.positions.size(); ++n) RC_ASSERT(simulation.mass(NodeId{n}) > 0);
       RC_ASSERT(simulation.stable_time_step(Integrator::semi_implicit_euler) >= 2 * time_step * (1 - 1e-12));
+      RC_ASSERT(simulation.stable_time_step(Integrator::forward_euler) >=
+                simulation.cut_proof_time_step(Integrator::forward_euler, mesh) * (1 - 1e-12));
       RC_ASSERT(same_constants(simulation, testing::simulated(mesh, simulation.material()), mesh, 1e-6));
       RC_ASSERT_FALSE(simulation.step(mesh, time_step, 20).has_value());
     }

@@ -42,7 +42,8 @@ Eigen::AlignedBox3d read_box(const JsonValue& value) {
 }
 
 void read_material(const JsonValue& value, Scene& scene) {
-  value.allow_keys({"mode", "density", "mass", "stiffness", "damping", "tear_limit"});
+  value.allow_keys({"mode", "density", "mass", "stiffness", "damping", "bending_stiffness", "bending_damping",
+                    "tear_limit"});
   scene.material_place = value.place();
   if (value.has("density") && value.has("mass")) value.fail("only one of density and mass can be given");
   take(value, "mode", scene.material.mode, [](const JsonValue& v) {
@@ -53,6 +54,8 @@ void read_material(const JsonValue& value, Scene& scene) {
   take(value, "mass", scene.mass, positive);
   take(value, "stiffness", scene.material.stiffness, not_negative);
   take(value, "damping", scene.material.damping, not_negative);
+  take(value, "bending_stiffness", scene.material.bending_stiffness, not_negative);
+  take(value, "bending_damping", scene.material.bending_damping, not_negative);
   take(value, "tear_limit", scene.tear_limit, positive);
   if (value.has("tear_limit") && !(scene.tear_limit > 1))
     value.at("tear_limit").fail("has to be greater than 1: it is a length over the length without tension");

@@ -32,11 +32,23 @@ struct TriangleCopy {
   TriangleId source;
 };
 
+/// `spring` joins copies of what `source` joins, or still one of its ends: same ancestor edge, same rest
+/// length. A spring keeps its entry while any pair that comes from its own is left, so that what a simulator
+/// keeps for each spring need only be copied to these.
+struct SpringCopy {
+  SpringId spring;
+  SpringId source;
+};
+
 struct Changes {
   std::uint64_t version_before = 0;  ///< HybridMesh::topology_version that this applies to
   std::uint64_t version_after = 0;
   std::vector<NodeCopy> node_copies;          ///< in the order of creation
   std::vector<TriangleCopy> triangle_copies;  ///< in the order of creation
+  std::vector<SpringCopy> spring_copies;      ///< in the order of creation
+  /// Edges of the uncut mesh beside which something changed, sorted: a fragment, a corner's node, a section
+  /// that was cut. `bending_pairs` of all others are as before.
+  std::vector<AncestorEdgeId> edges;
   ArrayChanges<AncestorNodeId> nodes;
   ArrayChanges<PhysicsTriangle> triangles;
   ArrayChanges<Spring> springs;
@@ -51,8 +63,8 @@ struct Changes {
 void apply(const Changes& changes, Buffers& buffers);
 
 /// The change set that undoes `changes`: from version_after back to version_before, to the bit. Without
-/// copies, since nothing is copied on the way back. It is for buffers; a HybridMesh goes back to an earlier
-/// state by being copied. O(changes). @pre `before` equals the mesh's buffers before the cut
+/// copies and edges, since nothing is copied on the way back. It is for buffers; a HybridMesh goes back to an
+/// earlier state by being copied. O(changes). @pre `before` equals the mesh's buffers before the cut
 [[nodiscard]] Changes inverse(const Changes& changes, const Buffers& before);
 
 }  // namespace cut

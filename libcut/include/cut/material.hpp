@@ -9,8 +9,10 @@ namespace cut {
 enum class MaterialMode : std::uint8_t {
   /// Every fragment carries the part of mass and springs that its render polygon stands for: for corner i the
   /// weight w_i = ∫_f N_i / ∫_T N_i of fragment f in triangle T, N_i the barycentric coordinate. A fragment's
-  /// share of a spring between corners i and j is min(w_i, w_j). A fragment that is cut again divides its own
-  /// weights among its parts. Mass, centre of mass and momentum are the
+  /// share of a spring between corners i and j is min(w_i, w_j). Fragments f and g that share the part s of
+  /// an edge, of which they reach the parts l, have s · min(1, w_f / l_f, w_g / l_g) of its bending spring, w
+  /// at the opposite corners. A fragment that is cut again divides its own weights among its parts. Mass,
+  /// centre of mass and momentum are the
   /// same before and after a cut, and no cut shrinks `Simulation::cut_proof_time_step`. Anchors stay with the
   /// copies that render the anchored node.
   conserving,
@@ -25,6 +27,10 @@ struct Material {
   double density = 0.2;  ///< mass per area [kg/m²], > 0; each node carries a third of the triangles around it
   double stiffness = 100;  ///< k of every uncut spring [N/m], >= 0
   double damping = 0.01;   ///< c of every uncut spring [N·s/m], >= 0
+  /// The same for the springs across edges that resist bending (cut/bending.hpp). Zero both: there are none.
+  /// By default a twentieth of what the edges have when the Material is made (docs/decisions.md, "Bending").
+  double bending_stiffness = stiffness / 20;
+  double bending_damping = damping / 20;
   bool operator==(const Material&) const = default;
 };
 

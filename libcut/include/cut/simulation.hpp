@@ -112,8 +112,11 @@ class Simulation {
   [[nodiscard]] double mass(NodeId node) const { return mass_[node.index()]; }
   [[nodiscard]] double stiffness(SpringId spring) const { return springs_.stiffness[spring.index()]; }
   [[nodiscard]] double damping(SpringId spring) const { return springs_.damping[spring.index()]; }
-  /// Number of springs in use.
+  /// Number of the mesh's springs in use.
   [[nodiscard]] std::size_t spring_count() const { return spring_count_; }
+  /// The springs that resist bending (cut/bending.hpp). Entry e is for ancestor edge e; the further ones of
+  /// edges that cuts have divided stand behind.
+  [[nodiscard]] const SpringArrays& bending_springs() const { return bending_; }
   [[nodiscard]] std::size_t node_count() const { return mass_.size(); }
   [[nodiscard]] const Material& material() const { return material_; }
   /// Number of steps done so far: the paper's "updates" (§6).
@@ -143,6 +146,8 @@ class Simulation {
   void divide_weights(const Changes& changes, const HybridMesh& mesh, std::size_t first_new);
   void update_copies(const HybridMesh& mesh, AncestorNodeId node);
   void update_springs(const HybridMesh& mesh, AncestorEdgeId edge);
+  void update_bending(const HybridMesh& mesh, AncestorEdgeId edge);
+  void reserve_bending(std::size_t entries);
   void copy_nodes(const Changes& changes);
   void settle_springs();
   void take_over_fragments(const Changes& changes, const HybridMesh& mesh, std::size_t first_new_triangle);
@@ -188,6 +193,11 @@ class Simulation {
       touched_;                      ///< entries of `springs_` that were written to since they were settled
   SpringBlocks blocks_;              ///< what the step goes through
   std::vector<std::uint8_t> sound_;  ///< work space of `step`, per block
+  SpringArrays bending_;             ///< padded likewise; empty without bending springs
+  std::vector<SpringPlace> bending_places_;     ///< per entry of `bending_`
+  std::vector<std::uint32_t> touched_bending_;  ///< as `touched_`
+  std::vector<std::uint32_t> next_bending_;     ///< per entry of `bending_`: the edge's next one, or 0
+  std::vector<std::uint32_t> free_bending_;     ///< entries that were further ones and are so no more
   /// Per physics triangle: w_i of its three corners. Conserving mode only.
   std::vector<std::array<double, 3>> weights_;
   ImplicitWork implicit_;  ///< empty while no implicit step was done

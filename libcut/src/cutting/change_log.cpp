@@ -37,11 +37,19 @@ Changes publish(const HybridMesh& mesh, ChangeLog&& log) {
   Changes changes;
   changes.node_copies = std::move(log.node_copies);
   changes.triangle_copies = std::move(log.triangle_copies);
+  changes.spring_copies = std::move(log.spring_copies);
   changes.nodes = entries(log.nodes, mesh.buffers.nodes);
   changes.triangles = entries(log.triangles, mesh.buffers.triangles);
   changes.springs = entries(log.springs, mesh.buffers.springs);
   changes.render_vertices = entries(log.render_vertices, mesh.buffers.render_vertices);
   changes.render_triangles = entries(log.render_triangles, mesh.buffers.render_triangles);
+  for (const auto& entry : changes.triangles.entries) {
+    if (!entry.value.ancestor.valid()) continue;
+    const auto& edges = mesh.ancestors.triangles[entry.value.ancestor.index()].edges;
+    log.edges.insert(log.edges.end(), edges.begin(), edges.end());
+  }
+  lattice::sort_unique(log.edges);
+  changes.edges = std::move(log.edges);
   return changes;
 }
 

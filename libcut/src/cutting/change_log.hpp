@@ -19,6 +19,8 @@ struct ChangeLog {
   std::vector<std::uint32_t> render_triangles;
   std::vector<NodeCopy> node_copies;
   std::vector<TriangleCopy> triangle_copies;
+  std::vector<SpringCopy> spring_copies;
+  std::vector<AncestorEdgeId> edges;  ///< of ancestors that were arranged anew
 };
 
 /// The last step (docs/cutting.md, "publish"): the change set of all noted entries with their values now.

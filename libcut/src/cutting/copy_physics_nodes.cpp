@@ -140,6 +140,10 @@ void update_springs(HybridMesh& mesh, const std::vector<AncestorNodeId>& nodes, 
 
   using Pair = std::array<NodeId, 2>;
   auto& springs = mesh.buffers.springs;
+  const std::size_t first_copy = mesh.buffers.nodes.size() - log.node_copies.size();
+  const auto before_cut = [&](NodeId n) {
+    return n.index() < first_copy ? n : log.node_copies[n.index() - first_copy].source;
+  };
   std::vector<Pair> wanted;
   for (const AncestorEdgeId e : edges) {
     wanted.clear();
@@ -158,31 +162,37 @@ void update_springs(HybridMesh& mesh, const std::vector<AncestorNodeId>& nodes, 
     if (wanted.size() == 1 && mesh.edge_state(e) == nullptr && springs[e.index()].nodes == wanted[0])
       continue;
     EdgeState& state = edge_state_for_writing(mesh, e);
-    std::vector<SpringId> idle;  // springs whose pair is gone: they get another one
+    // Springs whose pair is gone: the first pair that comes from theirs gets the entry.
+    std::vector<std::pair<Pair, SpringId>> old;
+    std::vector<SpringId> idle;
     for (const SpringId s : state.springs) {
-      const auto found = std::find(wanted.begin(), wanted.end(), springs[s.index()].nodes);
+      old.emplace_back(springs[s.index()].nodes, s);
+      const auto found = std::find(wanted.begin(), wanted.end(), old.back().first);
       if (found == wanted.end())
         idle.push_back(s);
       else
         wanted.erase(found);
     }
-    std::sort(idle.begin(), idle.end());
-    std::size_t reused = 0;
     for (const Pair& pair : wanted) {
-      SpringId s{springs.size()};
-      if (reused < idle.size()) {
-        s = idle[reused++];
+      const auto source = std::find_if(old.begin(), old.end(), [&](const auto& spring) {
+                            return spring.first == Pair{before_cut(pair[0]), before_cut(pair[1])};
+                          })->second;
+      SpringId s = source;
+      if (const auto entry = std::find(idle.begin(), idle.end(), source); entry != idle.end()) {
+        idle.erase(entry);
         springs[s.index()].nodes = pair;
       } else {
+        s = SpringId{springs.size()};
         springs.push_back({pair, e});
         state.springs.push_back(s);
+        log.spring_copies.push_back({s, source});
       }
       log.springs.push_back(s.value);
     }
-    for (; reused < idle.size(); ++reused) {
-      springs[idle[reused].index()] = Spring{};
-      log.springs.push_back(idle[reused].value);
-      state.springs.erase(std::find(state.springs.begin(), state.springs.end(), idle[reused]));
+    for (const SpringId s : idle) {
+      springs[s.index()] = Spring{};
+      log.springs.push_back(s.value);
+      state.springs.erase(std::find(state.springs.begin(), state.springs.end(), s));
     }
   }
 }

@@ -188,6 +188,10 @@ Result<Changes> Cutter::cut(HybridMesh& mesh, const TriangleMesh& cutter) {
   works.erase(std::remove_if(works.begin(), works.end(), [](const TriangleWork& w) { return !w.changed; }),
               works.end());
   if (works.empty()) return nothing;
+  for (const TriangleWork& work : works) {
+    const auto& edges = mesh.ancestors.triangles[work.ancestor.index()].edges;
+    log.edges.insert(log.edges.end(), edges.begin(), edges.end());
+  }
 
   lattice::sort_unique(touched);
   for (const AncestorNodeId n : touched) copy_physics_node(mesh, n, log);

@@ -18,12 +18,14 @@ std::optional<Error> Simulation::apply(const Changes& changes, const HybridMesh&
   for (const auto& entry : changes.springs.entries) set_spring(SpringId{entry.index}, mesh);
   copy_nodes(changes);
   if (material_.mode == MaterialMode::conserving) take_over_fragments(changes, mesh, first_new_triangle);
+  if (!next_bending_.empty())
+    for (const AncestorEdgeId edge : changes.edges) update_bending(mesh, edge);
   settle_springs();
   topology_version_ = changes.version_after;
   return std::nullopt;
 }
 
-/// Paper mode ends here: a copy is a full copy.
+/// In paper mode a copy is a full copy.
 void Simulation::copy_nodes(const Changes& changes) {
   for (const NodeCopy& copy : changes.node_copies) {
     const std::size_t to = copy.node.index(), from = copy.source.index();
@@ -56,6 +58,9 @@ void Simulation::settle_springs() {
   places_.resize(springs_.nodes.size());
   for (const std::uint32_t i : touched_) blocks_.set(springs_, i, places_[i]);
   touched_.clear();
+  bending_places_.resize(bending_.nodes.size());
+  for (const std::uint32_t i : touched_bending_) blocks_.set(bending_, i, bending_places_[i]);
+  touched_bending_.clear();
 }
 
 void Simulation::take_over_fragments(const Changes& changes, const HybridMesh& mesh,

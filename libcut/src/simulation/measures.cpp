@@ -36,11 +36,12 @@ Energy Simulation::energy(const HybridMesh& mesh) const {
     energy.kinetic += mass_[n] * squared_length(velocity(NodeId{n})) / 2;
     energy.gravity -= mass_[n] * dot(surroundings.gravity, mesh.positions[n]);
   }
-  for (std::size_t i = 0; i < springs_.nodes.size(); ++i) {
-    const auto [a, b] = springs_.nodes[i];
-    const double stretch = length(mesh.positions[b] - mesh.positions[a]) - springs_.rest_length[i];
-    energy.elastic += springs_.stiffness[i] * stretch * stretch / 2;
-  }
+  for (const SpringArrays* springs : {&springs_, &bending_})
+    for (std::size_t i = 0; i < springs->nodes.size(); ++i) {
+      const auto [a, b] = springs->nodes[i];
+      const double stretch = length(mesh.positions[b] - mesh.positions[a]) - springs->rest_length[i];
+      energy.elastic += springs->stiffness[i] * stretch * stretch / 2;
+    }
   return energy;
 }
 

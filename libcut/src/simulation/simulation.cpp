@@ -18,6 +18,8 @@ const char* fault_of(const Material& m) {
   if (!usable(m.density) || m.density < 1e-100) return "the density must be positive and finite";
   if (!usable(m.stiffness)) return "the stiffness must be finite and not negative";
   if (!usable(m.damping)) return "the damping must be finite and not negative";
+  if (!usable(m.bending_stiffness)) return "the bending stiffness must be finite and not negative";
+  if (!usable(m.bending_damping)) return "the bending damping must be finite and not negative";
   return nullptr;
 }
 
@@ -45,6 +47,10 @@ Result<Simulation> Simulation::build(const HybridMesh& mesh, const Material& mat
   }
   for (std::size_t n = 0; n < mesh.ancestors.rest_positions.size(); ++n)
     s.update_copies(mesh, AncestorNodeId{n});
+  if (material.bending_stiffness > 0 || material.bending_damping > 0) {
+    s.reserve_bending(mesh.ancestors.edges.size());
+    for (std::size_t e = 0; e < mesh.ancestors.edges.size(); ++e) s.update_bending(mesh, AncestorEdgeId{e});
+  }
   s.settle_springs();
   s.sound_.resize(s.blocks_.blocks().size());
   return s;

@@ -1,12 +1,14 @@
 // How large a time step may be (docs/decisions.md, "Stable time step"). In: stiffness, damping and mass of
 // every node. Out: the step up to which small motions around rest do not grow.
 //
-// With R = max over nodes of Σ k / m, no eigenvalue ω² of the linear system exceeds 2 R (Gershgorin). Damping
-// is that of the material: γ = (c / k) ω² + drag. One step maps a mode by z² − (2 − γh − ω²h²) z + 1 − γh = 0
-// (semi-implicit) or by z = 1 + hλ with λ² + γλ + ω² = 0 (forward); the bounds below are |z| <= 1.
+// With R = max over nodes of Σ k / m, no Rayleigh quotient ω² of stiffness exceeds 2 R (Gershgorin), and none
+// γ of damping 2 Σ c / m + drag; γ − drag lies between the smallest and the largest c / k times ω². One step
+// maps a mode by z² − (2 − γh − ω²h²) z + 1 − γh = 0 (semi-implicit) or by z = 1 + hλ with λ² + γλ + ω² = 0
+// (forward), with the mode's own quotients; the bounds below are |z| <= 1.
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "cut/simulation.hpp"
 #include "simulation/rest_area.hpp"
@@ -24,19 +26,27 @@ double Simulation::time_step_limit(Integrator integrator, double stiffness_ratio
     return root > 0 ? 4 / root : std::numeric_limits<double>::infinity();
   }
   const double infinity = std::numeric_limits<double>::infinity();
+  double least = infinity, most = 0;  // c / k
+  for (const auto& [c, k] : {std::pair{material_.damping, material_.stiffness},
+                             std::pair{material_.bending_damping, material_.bending_stiffness}}) {
+    if (k > 0) least = std::min(least, c / k);
+    if (c > 0) most = std::max(most, c / k);
+  }
   const double rigid = drag > 0 ? 2 / drag : infinity;  // motion without strain, which only drag damps
-  const double discriminant = damping * damping - 4 * squared;
-  if (discriminant < 0) return std::min(rigid, damping / squared);
-  return std::min(rigid, damping > 0 ? 4 / (damping + std::sqrt(discriminant)) : infinity);
+  const double swinging = squared > 0 ? least + drag / squared : infinity;
+  const double discriminant = damping * damping - 4 * (2 * damping_ratio) / most;
+  const double creeping = most > 0 && discriminant >= 0 ? 4 / (damping + std::sqrt(discriminant)) : infinity;
+  return std::min({rigid, swinging, creeping});
 }
 
 double Simulation::stable_time_step(Integrator integrator) const {
   std::vector<double> stiffness(mass_.size()), damping(mass_.size());
-  for (std::size_t i = 0; i < springs_.nodes.size(); ++i)
-    for (const std::uint32_t node : springs_.nodes[i]) {
-      stiffness[node] += springs_.stiffness[i];
-      damping[node] += springs_.damping[i];
-    }
+  for (const SpringArrays* springs : {&springs_, &bending_})
+    for (std::size_t i = 0; i < springs->nodes.size(); ++i)
+      for (const std::uint32_t node : springs->nodes[i]) {
+        stiffness[node] += springs->stiffness[i];
+        damping[node] += springs->damping[i];
+      }
   double stiffness_ratio = 0, damping_ratio = 0;
   for (std::size_t n = 0; n < mass_.size(); ++n) {
     stiffness_ratio = std::max(stiffness_ratio, stiffness[n] * inverse_mass_[n]);
@@ -46,20 +56,26 @@ double Simulation::stable_time_step(Integrator integrator) const {
 }
 
 double Simulation::cut_proof_time_step(Integrator integrator, const HybridMesh& mesh) const {
-  double ratio = 0;
+  double stiffness_ratio = 0, damping_ratio = 0;
   for (std::size_t t = 0; t < mesh.ancestors.triangles.size(); ++t) {
     const Ancestor& ancestor = mesh.ancestors.triangles[t];
     const double third = material_.density * rest_area(mesh.ancestors, AncestorId{t}) / 3;
-    std::array<double, 3> shares{};
+    std::array<double, 3> stiffness{}, damping{};  // per corner
+    const auto add = [&](std::size_t corner, double part, double k, double c) {
+      stiffness[corner] += part * k;
+      damping[corner] += part * c;
+    };
     for (std::size_t i = 0; i < 3; ++i) {
-      const auto& sides = mesh.ancestors.edges[ancestor.edges[i].index()].triangles;
-      const double share = sides[0].valid() && sides[1].valid() ? 0.5 : 1;
-      shares[i] += share;
-      shares[next_corner(i)] += share;
+      const bool inner = mesh.ancestors.edges[ancestor.edges[i].index()].triangles[1].valid();
+      for (const std::size_t end : {i, next_corner(i)})
+        add(end, inner ? 0.5 : 1, material_.stiffness, material_.damping);
+      if (inner) add(last_corner(i), 1, material_.bending_stiffness, material_.bending_damping);
     }
-    ratio = std::max(ratio, *std::max_element(shares.begin(), shares.end()) / third);
+    stiffness_ratio =
+        std::max(stiffness_ratio, *std::max_element(stiffness.begin(), stiffness.end()) / third);
+    damping_ratio = std::max(damping_ratio, *std::max_element(damping.begin(), damping.end()) / third);
   }
-  return time_step_limit(integrator, material_.stiffness * ratio, material_.damping * ratio);
+  return time_step_limit(integrator, stiffness_ratio, damping_ratio);
 }
 
 }  // namespace cut

@@ -1,0 +1,29 @@
+/// @file
+/// Reading what cuts made of the sections of an ancestor edge: which polygon lies at each, and whether it is
+/// cut.
+#pragma once
+#include "cut/hybrid_mesh.hpp"
+
+namespace cut {
+
+/// The polygon that triangle t has at each section of its side i, in the direction of the ancestor edge.
+/// Calls `visit(section, polygon)`.
+template <class Visit>
+void for_each_section(const HybridMesh& mesh, AncestorId t, std::size_t i, Visit&& visit) {
+  const Arrangement* arrangement = mesh.arrangement(t);
+  if (arrangement == nullptr) {
+    visit(std::size_t{0}, std::uint32_t{0});
+    return;
+  }
+  const auto& polygons = arrangement->section_polygons[i];
+  const bool reversed = mesh.ancestors.reversed(t, i);
+  for (std::size_t k = 0; k < polygons.size(); ++k)
+    visit(k, polygons[reversed ? polygons.size() - 1 - k : k]);
+}
+
+/// True when the two sides of a section are no longer joined.
+inline bool is_cut(const EdgeState* state, std::size_t section) {
+  return state != nullptr && state->cut[section] != 0;
+}
+
+}  // namespace cut
