@@ -171,7 +171,7 @@ TEST_CASE("A ribbon that hangs from its two ends is a catenary") {
   const std::size_t cells = 40;
   const double span = 0.8, step = 1.0 / cells;
   cut::HybridMesh mesh = testing::built(scenes::grid(cells, 1, step));
-  cut::Material material{cut::MaterialMode::conserving, 0.2, 5000, 0.5};
+  cut::Material material{cut::MaterialMode::conserving, 0.2, 5000, 0.5, 0, 0};
   cut::Simulation simulation = testing::simulated(mesh, material);
   simulation.surroundings.gravity = {0, 0, -9.81};
   simulation.surroundings.air_drag = 0.4;

@@ -40,7 +40,7 @@ struct Cloth {
 
   explicit Cloth(const cut::TriangleMesh& input)
       : mesh(testing::built(input)),
-        simulation(testing::simulated(mesh, cut::Material{})),
+        simulation(testing::simulated(mesh, {cut::MaterialMode::conserving, 0.2, 100, 0.01, 0, 0})),
         cutter(cut::default_merge_distances(mesh)) {}
 };
 

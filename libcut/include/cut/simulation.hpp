@@ -151,7 +151,7 @@ class Simulation {
   void copy_nodes(const Changes& changes);
   void settle_springs();
   void take_over_fragments(const Changes& changes, const HybridMesh& mesh, std::size_t first_new_triangle);
-  [[nodiscard]] std::array<const SpringArrays*, 1> spring_lists() const { return {&springs_}; }
+  [[nodiscard]] std::array<const SpringArrays*, 2> spring_lists() const { return {&springs_, &bending_}; }
   void find_air_forces(const HybridMesh& mesh);
   [[nodiscard]] bool go_through_blocks(const HybridMesh& mesh, const VelocityUpdate* update);
   std::optional<Error> explicit_velocities(const HybridMesh& mesh, double time_step, double speed_limit);

@@ -36,7 +36,7 @@ Energy Simulation::energy(const HybridMesh& mesh) const {
     energy.kinetic += mass_[n] * squared_length(velocity(NodeId{n})) / 2;
     energy.gravity -= mass_[n] * dot(surroundings.gravity, mesh.positions[n]);
   }
-  for (const SpringArrays* springs : {&springs_, &bending_})
+  for (const SpringArrays* springs : spring_lists())
     for (std::size_t i = 0; i < springs->nodes.size(); ++i) {
       const auto [a, b] = springs->nodes[i];
       const double stretch = length(mesh.positions[b] - mesh.positions[a]) - springs->rest_length[i];

@@ -41,7 +41,7 @@ double Simulation::time_step_limit(Integrator integrator, double stiffness_ratio
 
 double Simulation::stable_time_step(Integrator integrator) const {
   std::vector<double> stiffness(mass_.size()), damping(mass_.size());
-  for (const SpringArrays* springs : {&springs_, &bending_})
+  for (const SpringArrays* springs : spring_lists())
     for (std::size_t i = 0; i < springs->nodes.size(); ++i)
       for (const std::uint32_t node : springs->nodes[i]) {
         stiffness[node] += springs->stiffness[i];
