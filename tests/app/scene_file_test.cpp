@@ -138,6 +138,23 @@ TEST_CASE("every key reaches its place") {
   CHECK(output.view_box->min() == Vector3d(-1, -1, -1));
 }
 
+TEST_CASE("what a material does not say follows from what it says") {
+  const auto material = [](const std::string& keys) {
+    return good(R"({"cloth": {"shape": "triangle", "corners": [[0,0,0],[1,0,0],[0,1,0]]}, "material": {)" +
+                keys + "}}")
+        .material;
+  };
+  const cut::Material stiff = material(R"("stiffness": 40, "damping": 0.8)");
+  CHECK(stiff.bending_stiffness == 2);
+  CHECK(stiff.bending_damping == doctest::Approx(0.04));
+  const cut::Material bent = material(R"("stiffness": 40, "damping": 0.8, "bending_stiffness": 10)");
+  CHECK(bent.bending_stiffness == 10);
+  CHECK(bent.bending_damping == 0.2);
+  CHECK(material(R"("bending_stiffness": 0)").bending_damping == 0);
+  CHECK(material(R"("bending_stiffness": 0, "bending_damping": 3)").bending_damping == 3);
+  CHECK(material(R"("stiffness": 0)").bending_damping == 0);
+}
+
 TEST_CASE("integrators and obstacles: names, and what is said about wrong ones") {
   CHECK(good("{" + cloth + R"(, "integrator": "implicit_euler"})").surroundings.integrator ==
         cut::Integrator::implicit_euler);
@@ -273,6 +290,8 @@ TEST_CASE("a value out of range is named together with the range") {
         "tension");
   CHECK(error_with("\"material\": {\"stiffness\": -2}") ==
         "s.json:3: /material/stiffness: cannot be negative, is -2");
+  CHECK(error_with("\"material\": {\"bending_stiffness\": -2}") ==
+        "s.json:3: /material/bending_stiffness: cannot be negative, is -2");
   CHECK(error_with("\"material\": {\"mass\": 1, \"density\": 1}") ==
         "s.json:3: /material: only one of density and mass can be given");
   CHECK(error_with("\"integrator\": \"forward_eular\"") ==

@@ -84,7 +84,7 @@ struct OutputSettings {
 struct Scene {
   std::string description;
   MeshSource cloth;
-  cut::Material material{cut::MaterialMode::conserving, 0.2, 100, 0.01, 0, 0};  ///< without bending springs
+  cut::Material material;
   std::optional<double> mass;  ///< of the whole cloth; given instead of material.density
   double tear_limit = 0;       ///< length over rest length beyond which springs tear; 0: never
   std::string material_place;

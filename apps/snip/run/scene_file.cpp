@@ -46,16 +46,21 @@ void read_material(const JsonValue& value, Scene& scene) {
                     "tear_limit"});
   scene.material_place = value.place();
   if (value.has("density") && value.has("mass")) value.fail("only one of density and mass can be given");
-  take(value, "mode", scene.material.mode, [](const JsonValue& v) {
+  cut::Material& material = scene.material;
+  take(value, "mode", material.mode, [](const JsonValue& v) {
     return std::array{cut::MaterialMode::conserving,
                       cut::MaterialMode::paper}[v.word({"conserving", "paper"})];
   });
-  take(value, "density", scene.material.density, positive);
+  take(value, "density", material.density, positive);
   take(value, "mass", scene.mass, positive);
-  take(value, "stiffness", scene.material.stiffness, not_negative);
-  take(value, "damping", scene.material.damping, not_negative);
-  take(value, "bending_stiffness", scene.material.bending_stiffness, not_negative);
-  take(value, "bending_damping", scene.material.bending_damping, not_negative);
+  take(value, "stiffness", material.stiffness, not_negative);
+  take(value, "damping", material.damping, not_negative);
+  // What is not given follows from what is, as in a Material.
+  material = {material.mode, material.density, material.stiffness, material.damping};
+  take(value, "bending_stiffness", material.bending_stiffness, not_negative);
+  material = {material.mode, material.density, material.stiffness, material.damping,
+              material.bending_stiffness};
+  take(value, "bending_damping", material.bending_damping, not_negative);
   take(value, "tear_limit", scene.tear_limit, positive);
   if (value.has("tear_limit") && !(scene.tear_limit > 1))
     value.at("tear_limit").fail("has to be greater than 1: it is a length over the length without tension");

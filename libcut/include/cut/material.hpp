@@ -28,9 +28,10 @@ struct Material {
   double stiffness = 100;  ///< k of every uncut spring [N/m], >= 0
   double damping = 0.01;   ///< c of every uncut spring [N·s/m], >= 0
   /// The same for the springs across edges that resist bending (cut/bending.hpp). Zero both: there are none.
-  /// By default a twentieth of what the edges have when the Material is made (docs/decisions.md, "Bending").
+  /// By default a twentieth of the stiffness that the edges have when the Material is made
+  /// (docs/decisions.md, "Bending"), and damping in the ratio that edges have.
   double bending_stiffness = stiffness / 20;
-  double bending_damping = damping / 20;
+  double bending_damping = stiffness > 0 ? damping*(bending_stiffness / stiffness) : 0;
   bool operator==(const Material&) const = default;
 };
 

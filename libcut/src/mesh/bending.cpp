@@ -30,7 +30,14 @@ std::vector<BendingPair> bending_pairs(const HybridMesh& mesh, AncestorEdgeId ed
       fragments[section][side] = mesh.fragment(sides[side], polygon);
     });
   }
-  std::map<TriangleId, std::int64_t> bordered;  // in lattice units
+  const auto pair_of = [&](const std::array<TriangleId, 2>& both) {
+    BendingPair pair{{}, both, {1, 1}, 1};
+    for (std::size_t side = 0; side < 2; ++side)
+      pair.nodes[side] = mesh.buffers.triangles[both[side].index()].nodes[opposite[side]];
+    return pair;
+  };
+  if (state == nullptr) return {pair_of(fragments[0])};  // most edges: without the containers below
+  std::map<TriangleId, std::int64_t> bordered;           // in lattice units
   std::map<std::array<TriangleId, 2>, std::int64_t> shared;
   for (std::size_t k = 0; k < sections; ++k) {
     const std::int64_t from = k == 0 ? 0 : state->nodes[k - 1].t;
@@ -41,13 +48,9 @@ std::vector<BendingPair> bending_pairs(const HybridMesh& mesh, AncestorEdgeId ed
   std::vector<BendingPair> pairs;
   pairs.reserve(shared.size());
   for (const auto& [both, units] : shared) {
-    BendingPair& pair = pairs.emplace_back();
-    pair.fragments = both;
+    BendingPair& pair = pairs.emplace_back(pair_of(both));
     pair.shared = part_of_edge(units);
-    for (std::size_t side = 0; side < 2; ++side) {
-      pair.nodes[side] = mesh.buffers.triangles[both[side].index()].nodes[opposite[side]];
-      pair.bordered[side] = part_of_edge(bordered[both[side]]);
-    }
+    for (std::size_t side = 0; side < 2; ++side) pair.bordered[side] = part_of_edge(bordered[both[side]]);
   }
   return pairs;
 }
