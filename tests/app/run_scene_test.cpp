@@ -47,13 +47,13 @@ struct Folder {
 
 Scene scene_of(const std::string& text) {
   auto scene = snip::parse_scene(text, "s.json");
-  REQUIRE_MESSAGE(scene, scene.error().message);
+  REQUIRE_MESSAGE(scene, (scene ? "" : scene.error().message));
   return *scene;
 }
 
 SceneRun start(const Scene& scene, const fs::path& folder = ".") {
   auto run = SceneRun::start(scene, folder);
-  REQUIRE_MESSAGE(run, run.error().message);
+  REQUIRE_MESSAGE(run, (run ? "" : run.error().message));
   return std::move(*run);
 }
 
@@ -61,7 +61,7 @@ SceneRun start(const Scene& scene, const fs::path& folder = ".") {
 void finish(SceneRun& run) {
   while (run.frame().number < run.scene().frames) {
     const auto advanced = run.advance();
-    REQUIRE_MESSAGE(advanced, advanced.error().message);
+    REQUIRE_MESSAGE(advanced, (advanced ? "" : advanced.error().message));
     for (const cut::Violation& violation : cut::validate(run.mesh(), 3))
       FAIL_CHECK(violation.rule, violation.message);
   }
@@ -69,7 +69,7 @@ void finish(SceneRun& run) {
 
 Scene experiment(const std::string& name) {
   auto scene = snip::read_scene(scenes_folder / (name + ".json"));
-  REQUIRE_MESSAGE(scene, scene.error().message);
+  REQUIRE_MESSAGE(scene, (scene ? "" : scene.error().message));
   return *scene;
 }
 

@@ -17,6 +17,7 @@
 #include "cutting/detect_cutting_lines.hpp"
 #include "cutting/detect_disjoint_polygons.hpp"
 #include "cutting/edge_state.hpp"
+#include "cutting/merge_across_edges.hpp"
 #include "cutting/merge_cut_endpoints.hpp"
 #include "cutting/merge_on_physics_edges.hpp"
 #include "cutting/state.hpp"
@@ -158,7 +159,8 @@ Result<Changes> Cutter::cut(HybridMesh& mesh, const TriangleMesh& cutter) {
   ++mesh.cut_count;
   memory_->previous_cut = context.this_cut;
 
-  executor.for_each(works.size(), [&](std::size_t i) { merge_cut_endpoints(works[i], context); });
+  executor.for_each(works.size(), [&](std::size_t i) { merge_cut_endpoints(mesh, works[i], context); });
+  continue_lines(mesh, works, context);
   ClusterCentres next_centres;
   merge_on_physics_edges(mesh, works, context, next_centres);
   watch.lap(timings.merge_endpoints);

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <optional>
 #include <tuple>
 #include <utility>
 
+#include "cutting/merge_across_edges.hpp"
 #include "cutting/polygon_nodes.hpp"
 #include "spatial/point_cluster_dictionary.hpp"
 
@@ -14,37 +17,35 @@ namespace {
 
 using lattice::operator-;
 
-PolygonNodes polygon_nodes(const Arrangement& arrangement) {
-  PolygonNodes result(arrangement.polygons.size());
-  for (const CutEdge& e : arrangement.edges)
-    for (const std::uint32_t polygon : {e.left, e.right}) {
-      result.add(polygon, e.from);
-      result.add(polygon, e.to);
-    }
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::uint32_t k = 0; k < arrangement.section_polygons[i].size(); ++k) {
-      result.add(arrangement.section_polygons[i][k], arrangement.edge_node(i, k));
-      result.add(arrangement.section_polygons[i][k], arrangement.edge_node(i, k + 1));
-    }
-  result.finish();
-  return result;
-}
-
 std::int32_t round_to_lattice(double v) { return static_cast<std::int32_t>(std::floor(v + 0.5)); }
 
 class EndpointMerger {
  public:
-  EndpointMerger(const TriangleWork& work, const CutContext& context)
-      : work_(work), context_(context), nodes_(polygon_nodes(work.before)) {}
+  EndpointMerger(const HybridMesh& mesh, TriangleWork& work, const CutContext& context)
+      : work_(work),
+        context_(context),
+        nodes_(nodes_of_polygons(work.before)),
+        across_(mesh, work, context) {}
 
-  void merge(LineEnd& end, std::uint32_t polygon) const {
-    const LatticePoint detected = end.point;
-    decide(end, polygon);
-    end.detected = detected;
+  void merge(CuttingLine& line) {
+    const LatticePoint a = line.a.point;
+    const LatticePoint b = line.b.point;
+    decide(line.a, b, line.polygon);
+    decide(line.b, a, line.polygon);
+    line.a.detected = a;
+    line.b.detected = b;
   }
 
  private:
-  void decide(LineEnd& end, std::uint32_t polygon) const {
+  /// A node, or another place that attracts ends.
+  struct Target {
+    LineEnd end;
+    bool recent = false;
+    double distance = std::numeric_limits<double>::infinity();
+  };
+
+  /// @param other the line's other end, as it was detected
+  void decide(LineEnd& end, LatticePoint other, std::uint32_t polygon) {
     if (end.on == LineEnd::On::node) return;
     if (const std::size_t corner = corner_of(end.point); corner < 3) {
       end = {end.point, LineEnd::On::node, static_cast<std::uint32_t>(corner)};
@@ -52,8 +53,19 @@ class EndpointMerger {
       end = {end.point, LineEnd::On::physics_edge, 0};
     } else if (end.on == LineEnd::On::cut_edge) {
       merge_along_cut_edge(end);
-    } else if (const auto node = nearest_node(end.point, polygon)) {
-      end = *node;
+    } else {
+      merge_inside(end, other, polygon);
+    }
+  }
+
+  void merge_inside(LineEnd& end, LatticePoint other, std::uint32_t polygon) {
+    const Target here = nearest_node(end.point, polygon);
+    auto across = across_.nearest_node(end.point, other, polygon, here.recent, here.distance);
+    if (across) {
+      end = across->exit;
+      std::move(across->way.begin(), across->way.end(), std::back_inserter(work_.continued));
+    } else if (here.distance < std::numeric_limits<double>::infinity()) {
+      end = here.end;
     } else {
       merge_to_edge(end, polygon);
     }
@@ -76,18 +88,14 @@ class EndpointMerger {
 
   /// The nearest node, or place where a cut has begun, of the previous cut within δc; else the nearest node
   /// within δn.
-  [[nodiscard]] std::optional<LineEnd> nearest_node(LatticePoint p, std::uint32_t polygon) const {
-    std::optional<LineEnd> best;
-    bool best_recent = false;
-    double best_distance = 0;
+  [[nodiscard]] Target nearest_node(LatticePoint p, std::uint32_t polygon) const {
+    Target best;
     const auto consider = [&](const LineEnd& target, LatticePoint from, bool recent, double reach) {
       const double distance = work_.metric.length(p, from);
       if (distance > reach) return;
-      if (best && (best_recent > recent || (best_recent == recent && best_distance <= distance))) return;
+      if (best.recent > recent || (best.recent == recent && best.distance <= distance)) return;
       if (!visible(p, target.point, work_.before.edges, [&](std::uint32_t i) { return point(i); })) return;
-      best = target;
-      best_recent = recent;
-      best_distance = distance;
+      best = {target, recent, distance};
     };
     const auto at_node = [&](std::uint32_t n) { return LineEnd{point(n), LineEnd::On::node, n}; };
     for (const std::uint32_t n : nodes_.of(polygon))
@@ -133,20 +141,18 @@ class EndpointMerger {
     if (end.on == LineEnd::On::cut_edge) merge_along_cut_edge(end);
   }
 
-  const TriangleWork& work_;
+  TriangleWork& work_;
   const CutContext& context_;
   PolygonNodes nodes_;
+  Surroundings across_;
 };
 
 }  // namespace
 
-void merge_cut_endpoints(TriangleWork& work, const CutContext& context) {
+void merge_cut_endpoints(const HybridMesh& mesh, TriangleWork& work, const CutContext& context) {
   if (work.lines.empty()) return;
-  const EndpointMerger merger(work, context);
-  for (CuttingLine& line : work.lines) {
-    merger.merge(line.a, line.polygon);
-    merger.merge(line.b, line.polygon);
-  }
+  EndpointMerger merger(mesh, work, context);
+  for (CuttingLine& line : work.lines) merger.merge(line);
 }
 
 void merge_free_endpoints(TriangleWork& work, const std::vector<LatticePoint>& boundary_points,

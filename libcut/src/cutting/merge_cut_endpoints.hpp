@@ -7,8 +7,9 @@
 
 namespace cut {
 
-/// Decides each line end of one triangle by the mesh as it was before this cut. O(ends · nodes).
-void merge_cut_endpoints(TriangleWork& work, const CutContext& context);
+/// Decides each line end of one triangle by the mesh as it was before this cut, neighbours included (see
+/// merge_across_edges). Writes to `work` only. O(ends · nodes).
+void merge_cut_endpoints(const HybridMesh& mesh, TriangleWork& work, const CutContext& context);
 
 /// Merges ends that are still free to each other and to the boundary nodes that this cut made, within δn, in
 /// an order given by their positions alone. @pre merge_on_physics_edges has settled the boundary nodes:

@@ -145,15 +145,7 @@ void merge_on_physics_edges(HybridMesh& mesh, std::vector<TriangleWork>& works, 
     for (const AncestorId t : ancestors.edges[edge.index()].triangles)
       if (t.valid()) beside.push_back(t);
   lattice::sort_unique(beside);
-  const std::size_t with_lines = works.size();
-  std::size_t next = 0;
-  for (const AncestorId t : beside) {
-    while (next < with_lines && works[next].ancestor < t) ++next;
-    if (next < with_lines && works[next].ancestor == t) continue;
-    works.push_back(make_work(mesh, t, context.distances));
-  }
-  std::inplace_merge(works.begin(), works.begin() + static_cast<std::ptrdiff_t>(with_lines), works.end(),
-                     [](const TriangleWork& a, const TriangleWork& b) { return a.ancestor < b.ancestor; });
+  add_works(mesh, works, beside, context.distances);
 }
 
 }  // namespace cut

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "cut/arrangement.hpp"
 #include "lattice/orientation.hpp"
 #include "lattice/planar_graph.hpp"
 #include "lattice/sort_unique.hpp"
@@ -38,5 +39,22 @@ class PolygonNodes {
  private:
   std::vector<std::vector<std::uint32_t>> nodes_;
 };
+
+/// The nodes of an arrangement's polygons.
+inline PolygonNodes nodes_of_polygons(const Arrangement& arrangement) {
+  PolygonNodes result(arrangement.polygons.size());
+  for (const CutEdge& e : arrangement.edges)
+    for (const std::uint32_t polygon : {e.left, e.right}) {
+      result.add(polygon, e.from);
+      result.add(polygon, e.to);
+    }
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::uint32_t k = 0; k < arrangement.section_polygons[i].size(); ++k) {
+      result.add(arrangement.section_polygons[i][k], arrangement.edge_node(i, k));
+      result.add(arrangement.section_polygons[i][k], arrangement.edge_node(i, k + 1));
+    }
+  result.finish();
+  return result;
+}
 
 }  // namespace cut

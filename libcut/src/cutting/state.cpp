@@ -54,6 +54,19 @@ TriangleWork make_work(const HybridMesh& mesh, AncestorId ancestor, const MergeD
           working_arrangement(mesh, ancestor)};
 }
 
+void add_works(const HybridMesh& mesh, std::vector<TriangleWork>& works,
+               const std::vector<AncestorId>& ancestors, const MergeDistances& distances) {
+  const std::size_t present = works.size();
+  std::size_t next = 0;
+  for (const AncestorId t : ancestors) {
+    while (next < present && works[next].ancestor < t) ++next;
+    if (next < present && works[next].ancestor == t) continue;
+    works.push_back(make_work(mesh, t, distances));
+  }
+  std::inplace_merge(works.begin(), works.begin() + static_cast<std::ptrdiff_t>(present), works.end(),
+                     [](const TriangleWork& a, const TriangleWork& b) { return a.ancestor < b.ancestor; });
+}
+
 lattice::Metric rest_metric(const AncestorMesh& ancestors, AncestorId ancestor) {
   std::array<double, 3> squared;
   for (std::size_t k = 0; k < 3; ++k) {

@@ -50,6 +50,12 @@ struct CuttingLine {
   auto operator<=>(const CuttingLine&) const = default;
 };
 
+/// A line that goes on in another triangle, to a node there.
+struct ContinuedLine {
+  AncestorId ancestor;
+  CuttingLine line;
+};
+
 /// One ancestor that this cut touches.
 struct TriangleWork {
   AncestorId ancestor;
@@ -57,6 +63,7 @@ struct TriangleWork {
   MergeDistances distances;  ///< of this triangle, see local_distances
   Arrangement before;        ///< as the last cut left it; an uncut triangle's is made up
   std::vector<CuttingLine> lines{};
+  std::vector<ContinuedLine> continued{};  ///< from merge_cut_endpoints to continue_lines
 
   // From arrange_triangle on:
   lattice::PlanarGraph graph{};          ///< nodes as in Arrangement, edges without the sides of the triangle
@@ -136,6 +143,10 @@ Arrangement working_arrangement(const HybridMesh& mesh, AncestorId ancestor);
 
 /// A work without lines.
 TriangleWork make_work(const HybridMesh& mesh, AncestorId ancestor, const MergeDistances& distances);
+
+/// Adds works without lines for those of the ancestors that have none. @pre both are sorted by ancestor
+void add_works(const HybridMesh& mesh, std::vector<TriangleWork>& works,
+               const std::vector<AncestorId>& ancestors, const MergeDistances& distances);
 
 /// Squared tension-free lengths of the ancestor's edges.
 lattice::Metric rest_metric(const AncestorMesh& ancestors, AncestorId ancestor);

@@ -1,0 +1,287 @@
+#include "cutting/merge_across_edges.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+
+#include "cutting/edge_state.hpp"
+#include "lattice/sort_unique.hpp"
+#include "mesh/vector3.hpp"
+
+namespace cut {
+namespace {
+
+/// A point of the plane into which triangles are unfolded.
+struct Flat {
+  double x;
+  double y;
+  friend Flat operator-(Flat a, Flat b) { return {a.x - b.x, a.y - b.y}; }
+  friend Flat operator+(Flat a, Flat b) { return {a.x + b.x, a.y + b.y}; }
+  friend Flat operator*(double s, Flat a) { return {s * a.x, s * a.y}; }
+};
+double cross(Flat a, Flat b) { return a.x * b.y - a.y * b.x; }
+double dot(Flat a, Flat b) { return a.x * b.x + a.y * b.y; }
+
+double distance_to_segment(Flat p, Flat a, Flat b) {
+  const Flat along = b - a;
+  const double squared = dot(along, along);
+  const double s = squared > 0 ? std::clamp(dot(p - a, along) / squared, 0.0, 1.0) : 0.0;
+  const Flat d = p - (a + s * along);
+  return std::sqrt(dot(d, d));
+}
+
+using Corners = std::array<Flat, 3>;
+
+Flat flat(const Corners& corners, LatticePoint p) {
+  return corners[0] + static_cast<double>(p.x) / lattice_size * (corners[1] - corners[0]) +
+         static_cast<double>(p.y) / lattice_size * (corners[2] - corners[0]);
+}
+
+/// The corner at these distances from the ends of an edge, on the side of it where `away` is not.
+Flat third_corner(Flat start, Flat end, double squared_to_start, double squared_to_end, Flat away) {
+  const Flat along = end - start;
+  const double squared = dot(along, along);
+  const double s = 0.5 * ((squared_to_start - squared_to_end) / squared + 1);
+  const double h = std::sqrt(std::max(squared_to_start / squared - s * s, 0.0));
+  const Flat normal{-along.y, along.x};
+  return start + s * along + (cross(along, away - start) > 0 ? -h : h) * normal;
+}
+
+bool on_side(LatticePoint p, std::size_t side) { return p[last_corner(side)] == 0; }
+
+LineEnd end_on_side(LatticePoint p) {
+  if (const std::size_t corner = corner_of(p); corner < 3)
+    return {p, LineEnd::On::node, static_cast<std::uint32_t>(corner), p};
+  return {p, LineEnd::On::physics_edge, 0, p};
+}
+
+/// No way leads through more edges: an end sees at most the triangles around one node.
+constexpr std::size_t most_edges = 8;
+
+}  // namespace
+
+struct Surroundings::Neighbour {
+  TriangleWork work;
+  PolygonNodes nodes;
+};
+
+/// Unfolds triangle after triangle, away from the end at `p`, as far as δc.
+class Surroundings::Walk {
+ public:
+  Walk(Surroundings& surroundings, LatticePoint p, LatticePoint other, bool recent, double distance)
+      : surroundings_(surroundings),
+        mesh_(surroundings.mesh_),
+        p_(p),
+        other_(other),
+        best_recent_(recent),
+        best_distance_(distance) {}
+
+  std::optional<NodeAcross> run(std::uint32_t polygon) {
+    const TriangleWork& work = surroundings_.work_;
+    const Ancestor& t = mesh_.ancestors.triangles[work.ancestor.index()];
+    const Flat start{0, 0};
+    const Flat end{std::sqrt(squared_distance(t.nodes[0], t.nodes[1])), 0};
+    const Corners corners{start, end,
+                          third_corner(start, end, squared_distance(t.nodes[0], t.nodes[2]),
+                                       squared_distance(t.nodes[1], t.nodes[2]), {0, -1})};
+    from_ = flat(corners, p_);
+    leave(work, corners, polygon, 3, work.distances);
+    return std::move(best_);
+  }
+
+ private:
+  /// A section of an edge that the way goes through.
+  struct Gate {
+    const TriangleWork* inner;
+    const TriangleWork* outer;
+    AncestorEdgeId edge;
+    std::int32_t first;  ///< the section, in units from the start of the edge
+    std::int32_t last;
+    Flat first_at;
+    Flat last_at;
+    Flat low;  ///< all directions from the end that lead through this gate and those before it
+    Flat high;
+    std::uint32_t outer_polygon;
+  };
+
+  [[nodiscard]] double squared_distance(AncestorNodeId a, AncestorNodeId b) const {
+    return squared_length(mesh_.ancestors.rest_positions[b.index()] -
+                          mesh_.ancestors.rest_positions[a.index()]);
+  }
+
+  /// Through all sections of a polygon's sides that are within reach, but for the side where it was entered.
+  void leave(const TriangleWork& work, const Corners& corners, std::uint32_t polygon, std::size_t entered,
+             const MergeDistances& distances) {
+    if (gates_.size() == most_edges) return;
+    const AncestorMesh& ancestors = mesh_.ancestors;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const AncestorId beyond = ancestors.neighbour(work.ancestor, i);
+      if (i == entered || !beyond.valid()) continue;
+      const bool reversed = ancestors.reversed(work.ancestor, i);
+      const Flat start = corners[reversed ? next_corner(i) : i];
+      const Flat end = corners[reversed ? i : next_corner(i)];
+      if (distance_to_segment(from_, start, end) > distances.cut) continue;
+      const AncestorEdgeId edge = ancestors.triangles[work.ancestor.index()].edges[i];
+      const EdgeState* state = mesh_.edge_state(edge);
+      for_each_section(mesh_, work.ancestor, i, [&](std::size_t section, std::uint32_t at) {
+        if (at != polygon || is_cut(state, section)) return;
+        const std::int32_t first = section == 0 ? 0 : state->nodes[section - 1].t;
+        const std::int32_t last =
+            state == nullptr || section == state->nodes.size() ? lattice_size : state->nodes[section].t;
+        const auto point = [&](std::int32_t t) {
+          return start + static_cast<double>(t) / lattice_size * (end - start);
+        };
+        if (distance_to_segment(from_, point(first), point(last)) > distances.cut) return;
+        Flat low = point(first) - from_;
+        Flat high = point(last) - from_;
+        if (cross(low, high) < 0) std::swap(low, high);
+        if (!gates_.empty()) {
+          if (cross(gates_.back().low, low) < 0) low = gates_.back().low;
+          if (cross(high, gates_.back().high) < 0) high = gates_.back().high;
+        }
+        if (!(cross(low, high) > 0)) return;
+        const std::size_t side = ancestors.local_edge(beyond, edge);
+        std::uint32_t polygon_beyond = 0;
+        for_each_section(mesh_, beyond, side, [&](std::size_t other, std::uint32_t value) {
+          if (other == section) polygon_beyond = value;
+        });
+        Neighbour& neighbour = surroundings_.neighbour(beyond);
+        gates_.push_back({&work, &neighbour.work, edge, first, last, point(first), point(last), low, high,
+                          polygon_beyond});
+        enter(neighbour, side, start, end, corners[last_corner(i)], distances);
+        gates_.pop_back();
+      });
+    }
+  }
+
+  void enter(Neighbour& neighbour, std::size_t side, Flat start, Flat end, Flat behind,
+             const MergeDistances& so_far) {
+    const TriangleWork& work = neighbour.work;
+    const auto& nodes = mesh_.ancestors.triangles[work.ancestor.index()].nodes;
+    const bool reversed = mesh_.ancestors.reversed(work.ancestor, side);
+    const std::size_t at_start = reversed ? next_corner(side) : side;
+    const std::size_t at_end = reversed ? side : next_corner(side);
+    const std::size_t third = last_corner(side);
+    Corners corners;
+    corners[at_start] = start;
+    corners[at_end] = end;
+    corners[third] = third_corner(start, end, squared_distance(nodes[at_start], nodes[third]),
+                                  squared_distance(nodes[at_end], nodes[third]), behind);
+    const MergeDistances distances{std::min(so_far.cut, work.distances.cut),
+                                   std::min(so_far.node, work.distances.node),
+                                   std::min(so_far.edge, work.distances.edge)};
+    const std::uint32_t polygon = gates_.back().outer_polygon;
+    for (const std::uint32_t n : neighbour.nodes.of(polygon))
+      if (!on_side(work.before.nodes[n].point, side)) consider(work, corners, n, distances);
+    leave(work, corners, polygon, side, distances);
+  }
+
+  void consider(const TriangleWork& work, const Corners& corners, std::uint32_t node,
+                const MergeDistances& distances) {
+    const ArrangementNode& target = work.before.nodes[node];
+    const Flat to = flat(corners, target.point);
+    const bool recent = surroundings_.context_.recent(target.stamp);
+    const double distance = std::sqrt(dot(to - from_, to - from_));
+    if (distance > (recent ? distances.cut : distances.node)) return;
+    if (best_recent_ > recent || (best_recent_ == recent && best_distance_ <= distance)) return;
+
+    // Where the straight way passes each gate.
+    std::vector<std::int32_t> passes;
+    for (const Gate& gate : gates_) {
+      const double at_first = cross(to - from_, gate.first_at - from_);
+      const double at_last = cross(to - from_, gate.last_at - from_);
+      if ((at_first > 0 && at_last > 0) || (at_first < 0 && at_last < 0) || at_first == at_last) return;
+      const double s = at_first / (at_first - at_last);
+      passes.push_back(gate.first +
+                       static_cast<std::int32_t>(std::floor(s * (gate.last - gate.first) + 0.5)));
+    }
+    // A line that comes from the edge itself would run along it: it goes from where it came instead.
+    const Gate& gate = gates_.front();
+    if (gates_.size() == 1) {
+      const std::size_t side = mesh_.ancestors.local_edge(gate.inner->ancestor, gate.edge);
+      const std::int32_t t = along(gate.inner->ancestor, side, other_);
+      if (on_side(other_, side) && gate.first <= t && t <= gate.last) passes.front() = t;
+    }
+
+    NodeAcross found{recent, distance, {}, {}};
+    LatticePoint inner = p_;
+    for (std::size_t k = 0; k < gates_.size(); ++k) {
+      const LatticePoint exit = on_edge(*gates_[k].inner, gates_[k].edge, passes[k]);
+      if (hidden(*gates_[k].inner, inner, exit)) return;
+      if (k == 0) {
+        found.exit = end_on_side(exit);
+      } else {
+        found.way.back().line.b = end_on_side(exit);
+      }
+      inner = on_edge(*gates_[k].outer, gates_[k].edge, passes[k]);
+      found.way.push_back({gates_[k].outer->ancestor, {gates_[k].outer_polygon, end_on_side(inner), {}}});
+    }
+    if (hidden(work, inner, target.point)) return;
+    found.way.back().line.b = {target.point, LineEnd::On::node, node, target.point};
+    best_ = std::move(found);
+    best_recent_ = recent;
+    best_distance_ = distance;
+  }
+
+  [[nodiscard]] std::int32_t along(AncestorId t, std::size_t side, LatticePoint p) const {
+    const std::int32_t at = p[next_corner(side)];
+    return mesh_.ancestors.reversed(t, side) ? lattice_size - at : at;
+  }
+
+  [[nodiscard]] LatticePoint on_edge(const TriangleWork& work, AncestorEdgeId edge, std::int32_t t) const {
+    const std::size_t side = mesh_.ancestors.local_edge(work.ancestor, edge);
+    return lattice_point_on_edge(side, mesh_.ancestors.reversed(work.ancestor, side) ? lattice_size - t : t);
+  }
+
+  static bool hidden(const TriangleWork& work, LatticePoint a, LatticePoint b) {
+    return !visible(a, b, work.before.edges, [&](std::uint32_t n) { return work.before.nodes[n].point; });
+  }
+
+  Surroundings& surroundings_;
+  const HybridMesh& mesh_;
+  LatticePoint p_;
+  LatticePoint other_;
+  bool best_recent_;
+  double best_distance_;
+  Flat from_{};
+  std::vector<Gate> gates_;
+  std::optional<NodeAcross> best_;
+};
+
+Surroundings::Surroundings(const HybridMesh& mesh, const TriangleWork& work, const CutContext& context)
+    : mesh_(mesh), work_(work), context_(context) {}
+Surroundings::~Surroundings() = default;
+
+Surroundings::Neighbour& Surroundings::neighbour(AncestorId ancestor) {
+  for (const auto& n : neighbours_)
+    if (n->work.ancestor == ancestor) return *n;
+  TriangleWork work = make_work(mesh_, ancestor, context_.distances);
+  PolygonNodes nodes = nodes_of_polygons(work.before);
+  neighbours_.push_back(std::make_unique<Neighbour>(Neighbour{std::move(work), std::move(nodes)}));
+  return *neighbours_.back();
+}
+
+std::optional<NodeAcross> Surroundings::nearest_node(LatticePoint p, LatticePoint other,
+                                                     std::uint32_t polygon, bool recent, double distance) {
+  return Walk(*this, p, other, recent, distance).run(polygon);
+}
+
+void continue_lines(const HybridMesh& mesh, std::vector<TriangleWork>& works, const CutContext& context) {
+  std::vector<ContinuedLine> lines;
+  for (TriangleWork& work : works) {
+    std::move(work.continued.begin(), work.continued.end(), std::back_inserter(lines));
+    work.continued.clear();
+  }
+  if (lines.empty()) return;
+  std::vector<AncestorId> entered;
+  for (const ContinuedLine& l : lines) entered.push_back(l.ancestor);
+  lattice::sort_unique(entered);
+  add_works(mesh, works, entered, context.distances);
+  for (ContinuedLine& l : lines)
+    std::lower_bound(works.begin(), works.end(), l.ancestor, [](const TriangleWork& w, AncestorId a) {
+      return w.ancestor < a;
+    })->lines.push_back(l.line);
+}
+
+}  // namespace cut

@@ -1,0 +1,54 @@
+/// @file
+/// Step 2 beyond the triangle (§4.2; future work in §7): a line end near a physics edge also sees the nodes
+/// on the other side, in the plane into which the triangles around it unfold. In: a free end. Out: the place
+/// on the edge where the line leaves the triangle, and the lines that lead it on to a node of a neighbour.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "cutting/polygon_nodes.hpp"
+#include "cutting/state.hpp"
+
+namespace cut {
+
+/// A node on the other side of an edge, and the way there.
+struct NodeAcross {
+  bool recent;                     ///< part of the previous cut
+  double distance;                 ///< straight, in the unfolded plane
+  LineEnd exit;                    ///< where the way leaves the triangle of the end
+  std::vector<ContinuedLine> way;  ///< one for each triangle that is entered; the last one ends at the node
+};
+
+/// What a triangle's line ends see in its neighbours. Arrangements of neighbours are set up when they are
+/// first needed.
+class Surroundings {
+ public:
+  Surroundings(const HybridMesh& mesh, const TriangleWork& work, const CutContext& context);
+  ~Surroundings();
+
+  /// The node across edges that is better than the best one of the triangle itself: a recent one within δc,
+  /// else any within δn, by distance. The way to it is straight, and crosses no cut.
+  /// @param p inside of the triangle, on no edge
+  /// @param other the line's other end
+  /// @param recent,distance of the best node of the triangle itself; infinite distance when there is none
+  [[nodiscard]] std::optional<NodeAcross> nearest_node(LatticePoint p, LatticePoint other,
+                                                       std::uint32_t polygon, bool recent, double distance);
+
+ private:
+  struct Neighbour;
+  class Walk;
+  Neighbour& neighbour(AncestorId ancestor);
+
+  const HybridMesh& mesh_;
+  const TriangleWork& work_;
+  const CutContext& context_;
+  std::vector<std::unique_ptr<Neighbour>> neighbours_;
+};
+
+/// Gives the lines that go on in a neighbour to that neighbour's work, which is made if there is none.
+void continue_lines(const HybridMesh& mesh, std::vector<TriangleWork>& works, const CutContext& context);
+
+}  // namespace cut

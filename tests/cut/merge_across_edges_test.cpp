@@ -1,0 +1,132 @@
+// Ends of lines merge across the borders of triangles (§7): two slits that meet within δn become one cut
+// wherever the border runs between them.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <random>
+
+#include "cut/pieces.hpp"
+#include "cut_and_check.hpp"
+#include "scenes/cutters.hpp"
+
+namespace {
+
+using Vector3 = Eigen::Vector3d;
+
+/// Triangles around a point, so large that no other border is near it.
+cut::TriangleMesh fan(const Vector3& centre, std::size_t triangles) {
+  cut::TriangleMesh mesh{{centre}, {}};
+  for (std::uint32_t i = 0; i < triangles; ++i) {
+    const double angle = 0.3 + 6.283185307179586 * i / static_cast<double>(triangles);
+    mesh.positions.push_back({9 * std::cos(angle), 9 * std::sin(angle), 0});
+    const auto next = static_cast<std::uint32_t>((i + 1) % triangles);
+    mesh.triangles.push_back({0, i + 1, next + 1});
+  }
+  return mesh;
+}
+
+/// Two triangles whose common edge passes the origin at `distance`, in the direction `angle`.
+cut::TriangleMesh halves(double distance, double angle) {
+  const Vector3 along(-std::sin(angle), std::cos(angle), 0);
+  const Vector3 across(std::cos(angle), std::sin(angle), 0);
+  return {{distance * across - 9 * along, distance * across + 9 * along, -12 * across, 12 * across},
+          {{0, 1, 2}, {1, 0, 3}}};
+}
+
+struct Random {
+  std::mt19937 engine{20261126};
+  double between(double low, double high) {
+    return low + (high - low) * (static_cast<double>(engine()) / 4294967296.0);
+  }
+};
+
+/// A slit from far away to a point near the origin.
+cut::TriangleMesh slit(double from_angle, const Vector3& to) {
+  return scenes::ribbon({Vector3(14 * std::cos(from_angle), 14 * std::sin(from_angle), 0), to}, {0, 0, 2});
+}
+
+/// Two slits, from anywhere, whose ends are less than δn apart.
+struct Meeting {
+  Vector3 first;
+  Vector3 second;
+  double from_first;
+  double from_second;
+
+  Meeting(Random& random, double node_distance)
+      : first(random.between(-0.1, 0.1), random.between(-0.1, 0.1), 0),
+        from_first(random.between(0, 6.283185307179586)),
+        from_second(from_first + random.between(2, 4)) {
+    const double direction = random.between(0, 6.283185307179586);
+    const double gap = random.between(0.01, 0.95) * node_distance;
+    second = first + gap * Vector3(std::cos(direction), std::sin(direction), 0);
+  }
+};
+
+/// The number of times, of 500, that a cut which goes on within δn of its end does not meet it.
+template <class Cloth>
+int broken_cuts(const cut::MergeDistances& distances, const Cloth& cloth) {
+  Random random;
+  int broken = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Meeting m(random, distances.node);
+    Session s(cloth(random), distances);
+    s.cut(slit(m.from_first, m.first));
+    REQUIRE(cut::pieces(s.mesh).list.size() == 1);
+    s.cut(slit(m.from_second, m.second));
+    if (cut::pieces(s.mesh).list.size() != 2) ++broken;
+  }
+  return broken;
+}
+
+TEST_CASE("a cut meets its end, wherever a border or a node lies") {
+  const auto near_edge = [](Random& random) {
+    return halves(random.between(-0.25, 0.25), random.between(0, 3.141592653589793));
+  };
+  const auto near_node = [](Random& random) {
+    const Vector3 node(random.between(-0.2, 0.2), random.between(-0.2, 0.2), 0);
+    return fan(node, 3 + static_cast<std::size_t>(random.between(0, 5)));
+  };
+  for (const cut::MergeDistances distances : {cut::MergeDistances{0.2, 0.1, 0.05}, {0.2, 0.1, 0.01}}) {
+    CAPTURE(distances.edge);
+    CHECK(broken_cuts(distances, near_edge) == 0);
+    CHECK(broken_cuts(distances, near_node) == 0);
+  }
+}
+
+TEST_CASE("an end sees a node across an edge from as far as one on its own side") {
+  constexpr cut::MergeDistances distances{0.2, 0.1, 0.01};
+  Random random;
+  for (int i = 0; i < 500; ++i) {
+    // The first slit ends inside of the left triangle, and nothing is near enough to attract its end.
+    const double left = random.between(0.011, 0.09);
+    const double right = random.between(0.001, 0.09);
+    const double up = random.between(-0.1, 0.1);
+    const bool near = std::hypot(left + right, up) < distances.node;
+    Session s(halves(0, 0), distances);
+    s.cut(slit(3.1, {-left, 0, 0}));
+    s.cutter = cut::Cutter(distances);  // knows of no end
+    s.cut(slit(0.1, {right, up, 0}));
+    CAPTURE(left);
+    CAPTURE(right);
+    CAPTURE(up);
+    if (near) CHECK(cut::pieces(s.mesh).list.size() == 2);
+    // On the edge the end may have been led to it by up to δe, and so come within δn.
+    if (right > distances.edge && !near) CHECK(cut::pieces(s.mesh).list.size() == 1);
+  }
+}
+
+TEST_CASE("an end does not see across an edge that is cut") {
+  constexpr cut::MergeDistances distances{0.2, 0.1, 0.01};
+  for (const bool open : {false, true}) {
+    Session s(halves(0, 0), distances);
+    s.cut(slit(3.1, {-0.03, 0, 0}));
+    if (open) s.cut(scenes::ribbon({{0, -1, 0}, {0, 1, 0}}, {0, 0, 2}));
+    s.cutter = cut::Cutter(distances);
+    const cut::AncestorId left{0};
+    const std::size_t edges = s.mesh.arrangement(left)->edges.size();
+    s.cut(slit(0.0, {0.03, 0.05, 0}));
+    CHECK(s.mesh.arrangement(left)->edges.size() == edges + (open ? 0 : 1));
+  }
+}
+
+}  // namespace
