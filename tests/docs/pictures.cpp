@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cut/cutter.hpp>
+#include <scenes/cloths.hpp>
 #include <scenes/cutters.hpp>
 #include <utility>
 
@@ -201,6 +202,31 @@ std::string reconnect() {
   return svg.str();
 }
 
+/// The physics mesh after a slit: ours, and that of element refinement, in which each triangle that is drawn
+/// is one of the simulation (the paper's Figure 1).
+std::string slit() {
+  cut::HybridMesh mesh = cut::HybridMesh::build(scenes::hexagon(3)).value();
+  cut::Cutter cutter(cut::default_merge_distances(mesh));
+  const double angle = 17 * std::acos(-1.0) / 180;
+  (void)cutter.cut(
+      mesh, scenes::plane({0.23, 0.31, 0}, {3.5 * std::cos(angle), 3.5 * std::sin(angle), 0}, {0, 0, 1}));
+  cut::TriangleMesh triangles;
+  for (const cut::RenderVertex& vertex : mesh.buffers.render_vertices)
+    triangles.positions.push_back(mesh.position(vertex));
+  for (const cut::RenderTriangle& triangle : mesh.buffers.render_triangles)
+    if (triangle.triangle.valid())
+      triangles.triangles.push_back(
+          {triangle.vertices[0].value, triangle.vertices[1].value, triangle.vertices[2].value});
+  Svg svg(760, 340, 56);
+  svg.panel(190, 165, "");
+  svg.mesh(mesh);
+  svg.text({-1.5, -2.6}, 0, 24, "ours", "#333");
+  svg.panel(570, 165, "");
+  svg.mesh(cut::HybridMesh::build(triangles).value());
+  svg.text({-1.5, -2.6}, 0, 24, "element refinement", "#333");
+  return svg.str();
+}
+
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> pictures() {
@@ -212,7 +238,8 @@ std::vector<std::pair<std::string, std::string>> pictures() {
           {"merge_adjacent_edges.svg", merge_adjacent()},
           {"small_steps.svg", small_steps()},
           {"detect_disjoint_polygons.svg", faces()},
-          {"reconnect.svg", reconnect()}};
+          {"reconnect.svg", reconnect()},
+          {"slit.svg", slit()}};
 }
 
 }  // namespace docs

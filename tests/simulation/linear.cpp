@@ -78,6 +78,12 @@ System assemble(const cut::HybridMesh& mesh, const cut::Simulation& simulation, 
   return system;
 }
 
+Sparse unit(Eigen::Index size) {
+  Sparse result(size, size);
+  result.setIdentity();
+  return result;
+}
+
 }  // namespace
 
 std::vector<double> frequencies(const cut::HybridMesh& mesh, const cut::Simulation& simulation,
@@ -90,14 +96,16 @@ std::vector<double> frequencies(const cut::HybridMesh& mesh, const cut::Simulati
       root_mass.segment<2>(system.number[n]).setConstant(std::sqrt(simulation.mass(cut::NodeId{n})));
   const Eigen::VectorXd inverse = root_mass.cwiseInverse();
   const Sparse scaled = inverse.asDiagonal() * system.stiffness * inverse.asDiagonal();
-  const Eigen::SimplicialLDLT<Sparse> solver(scaled);
+  // Shifted, since a flap that hangs on one node turns without strain.
+  const double shift = 1e-6 * scaled.diagonal().mean();
+  const Eigen::SimplicialLDLT<Sparse> solver(scaled + shift * unit(size));
   // Subspace iteration: a few vectors more than wanted turn towards the lowest modes.
   const auto columns = static_cast<Eigen::Index>(2 * count + 4);
   Eigen::MatrixXd modes(size, columns);
   std::mt19937 random(1);
   for (Eigen::Index i = 0; i < modes.size(); ++i) modes(i) = random_vector(random, 1).x();
   Eigen::VectorXd squared;
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 40; ++i) {
     modes = solver.solve(modes);
     modes = Eigen::HouseholderQR<Eigen::MatrixXd>(modes).householderQ() *
             Eigen::MatrixXd::Identity(size, columns);
@@ -106,7 +114,8 @@ std::vector<double> frequencies(const cut::HybridMesh& mesh, const cut::Simulati
     squared = small.eigenvalues();
   }
   std::vector<double> result;
-  for (std::size_t i = 0; i < count; ++i) result.push_back(std::sqrt(squared[static_cast<Eigen::Index>(i)]));
+  for (std::size_t i = 0; i < count; ++i)
+    result.push_back(std::sqrt(std::max(0.0, squared[static_cast<Eigen::Index>(i)])));
   return result;
 }
 
@@ -119,7 +128,8 @@ std::vector<double> stretch_energies(const cut::HybridMesh& mesh, const cut::Sim
     fields.emplace_back(along * along.transpose());
   }
   const System system = assemble(mesh, simulation, held, fields);
-  const Eigen::SimplicialLDLT<Sparse> solver(system.stiffness);
+  const double shift = 1e-12 * system.stiffness.diagonal().mean();  // against flaps, as above
+  const Eigen::SimplicialLDLT<Sparse> solver(system.stiffness + shift * unit(system.stiffness.rows()));
   const Eigen::MatrixXd moved = solver.solve(system.load);
   std::vector<double> energies;
   for (Eigen::Index f = 0; f < moved.cols(); ++f)

@@ -13,7 +13,7 @@ namespace testing {
 /// Which nodes are held, by their tension-free position.
 using Held = std::function<bool(const Eigen::Vector3d&)>;
 
-/// The lowest frequencies ω [1/s] in the plane z = 0. @pre what is held leaves no motion without strain
+/// The lowest frequencies ω [1/s] in the plane z = 0.
 std::vector<double> frequencies(const cut::HybridMesh& mesh, const cut::Simulation& simulation,
                                 const Held& held, std::size_t count);
 
