@@ -168,6 +168,30 @@ TEST_CASE("memory that runs out leaves the tree as it was") {
   CHECK(memory.in_use == 0);
 }
 
+TEST_CASE("memory that runs out while a few elements are added leaves none of them") {
+  Failing memory;
+  spatial::pmr::BoundingBoxTernaryTree<int, float, 2> tree(&memory);
+  for (int i = 0; i < 300; ++i) tree.insert(box_at(i), i);
+  std::vector<std::pair<Box, int>> many;
+  for (int i = 0; i < 299; ++i) many.push_back({box_at(100 * i), 1000 + i});
+  int failures = 0;
+  for (;; ++failures) {
+    memory.countdown = failures;
+    try {
+      tree.insert(many.begin(), many.end());
+      break;
+    } catch (const std::bad_alloc&) {
+    }
+    memory.countdown = -1;
+    REQUIRE(tree.size() == 300);
+    REQUIRE(tree.count(spatial::satisfies([](int v) { return v >= 1000; })) == 0);
+    REQUIRE(tree.validate().empty());
+  }
+  memory.countdown = -1;
+  CHECK(failures > 3);
+  CHECK(tree.size() == 599);
+}
+
 TEST_CASE("values get the tree's allocator, and trees with different ones can be assigned") {
   Failing one, two;
   {

@@ -1,0 +1,100 @@
+/// @file
+/// Splits a leaf that is full (§5.1, figure 7). In: a leaf. Out: a node with up to three leaves in its place.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+#include "tight_boxes.hpp"
+#include "tree_storage.hpp"
+
+namespace spatial::detail {
+
+/// Takes back a node and leaves that were made for a split that failed.
+template <class Tree>
+struct Undo {
+  Tree* tree;
+  std::uint32_t node;
+  const std::uint32_t* leaves;
+  ~Undo() {
+    if (tree == nullptr) return;
+    for (int s = 0; s < 3; ++s) {
+      if (leaves[s] != Tree::none) tree->free_leaf(leaves[s]);
+    }
+    tree->free_node(node);
+  }
+};
+
+/// Distributes a leaf's elements among three new leaves (§5.1, figure 7), so that `incoming` finds a place
+/// too. False if no plane can separate them.
+template <class Tree>
+bool split_leaf(Tree& tree, std::uint32_t index, const TreeBox<Tree>& incoming) {
+  const std::uint32_t parent = tree.leaf(index).parent;
+  const std::uint32_t side = tree.leaf(index).side;
+  if (tree.leaf(index).loose > 0) tighten_leaf(tree, index);
+  TreeBox<Tree> tight = tree.link_box(parent, side);
+  extend(tight, incoming);
+  TreeCell<Tree> cell =
+      parent == Tree::none ? TreeCell<Tree>::cube_around(tight) : tree.link_cell(parent, side);
+  bool compressed = false;
+  TreeSplit<Tree> at;
+  for (;;) {
+    at = cell.split();
+    if (!at.exists()) {
+      tree.leaf(index).indivisible = true;
+      return false;
+    }
+    const Side all = side_of(tight.min[at.axis], tight.max[at.axis], at.plane);
+    if (all == centric) break;
+    cell = cell.child(at, all);
+    compressed = true;
+  }
+  std::uint32_t counts[3] = {0, 0, 0};
+  TreeBox<Tree> bounds[3] = {no_box<Tree>(), no_box<Tree>(), no_box<Tree>()};
+  const auto boxes = tree.leaf(index).boxes();
+  for (std::uint32_t i = 0; i < tree.leaf(index).count; ++i) {
+    const TreeBox<Tree> box = boxes[i];
+    const Side to = side_of(box.min[at.axis], box.max[at.axis], at.plane);
+    ++counts[to];
+    extend(bounds[to], box);
+  }
+  // Half of a volume may do with half of the levels, once on each axis.
+  const bool same_frame = tree.leaf(index).frame_age < Tree::dimension && !tree.leaf(index).has_old_frame();
+  const std::uint32_t made = tree.new_node();
+  // The new leaves hang at the node before the old one is touched, so that a failing allocation loses
+  // nothing.
+  std::uint32_t leaves[3] = {Tree::none, Tree::none, Tree::none};
+  Undo<Tree> undo{&tree, made, leaves};
+  for (std::uint32_t s = 0; s < 3; ++s) {
+    if (counts[s] == 0) continue;
+    leaves[s] = tree.new_leaf(Tree::capacity_for(counts[s]), tree.leaf(index).rows);
+    if (!same_frame) tree.leaf(leaves[s]).set_frame(Tree::FrameType::around(bounds[s]));
+    if (same_frame) tree.leaf(leaves[s]).inherit_frame(tree.leaf(index));
+  }
+  undo.tree = nullptr;
+  typename Tree::NodeType& node = tree.node(made);
+  node.cell = cell;
+  node.plane = at.plane;
+  node.axis = static_cast<std::uint8_t>(at.axis);
+  node.compressed = compressed;
+  for (std::size_t s = 0; s < Tree::NodeType::lanes; ++s) node.set_child_box(s, no_box<Tree>());
+  typename Tree::LeafType& old = tree.leaf(index);
+  for (std::uint32_t i = 0; i < old.count; ++i) {
+    const TreeBox<Tree> box = boxes[i];
+    tree.move_element(old, i, leaves[side_of(box.min[at.axis], box.max[at.axis], at.plane)], same_frame);
+  }
+  old.count = 0;
+  tree.free_leaf(index);
+  tree.attach_node(made, parent, side);
+  for (std::uint32_t s = 0; s < 3; ++s) {
+    if (leaves[s] == Tree::none) continue;
+    tree.attach_leaf(leaves[s], made, s);
+    node.set_child_box(s, bounds[s]);
+  }
+  // What is still over the limit was indivisible before `incoming` came, so this goes no deeper.
+  for (std::uint32_t s = 0; s < 3; ++s) {
+    if (counts[s] > Tree::leaf_limit) split_leaf(tree, leaves[s], tree.leaf(leaves[s]).box(0));
+  }
+  return true;
+}
+
+}  // namespace spatial::detail

@@ -1,0 +1,338 @@
+/// @file
+/// What a tree (§5.1) is made of: flat arrays of nodes, leaves and slots, the root, and lists of what is free
+/// in each array. In: indices. Out: nodes, leaves and slots; the rules of the tree are in the files of the
+/// operations.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "build.hpp"
+#include "cell.hpp"
+#include "leaf.hpp"
+#include "node.hpp"
+#include "slot.hpp"
+
+namespace spatial::detail {
+
+template <class Value, class T, std::size_t D, class Allocator>
+class TreeStorage {
+ public:
+  using Scalar = T;
+  using ValueType = Value;
+  static constexpr std::size_t dimension = D;
+  using BoxType = Box<T, D>;
+  using NodeType = Node<T, D>;
+  using FrameType = Frame<T, D>;
+  using LeafType = Leaf<Value, T, D>;
+  using Memory = LeafMemory<Value, T, D, Allocator>;
+  template <class X>
+  using Rebound = typename std::allocator_traits<Allocator>::template rebind_alloc<X>;
+  using AllocatorType = Allocator;
+  using Nodes = std::vector<NodeType, Rebound<NodeType>>;
+  using Leaves = std::vector<LeafType, Rebound<LeafType>>;
+  static constexpr std::uint32_t none = 0xffffffffu;
+  /// The soft limit of a leaf (§5.1). Measured with 48, 64, 96 and 128: levels make tests cheap, and fewer
+  /// leaves make fewer nodes; beyond this the nearest search loses.
+  static constexpr std::uint32_t leaf_limit = 96;
+  static constexpr std::uint32_t least_capacity = level_block;  ///< of a leaf that is inserted into
+
+  explicit TreeStorage(const Allocator& allocator)
+      : allocator_(allocator), nodes_(allocator), leaves_(allocator), slots_(allocator) {}
+  TreeStorage(const TreeStorage&) = delete;
+  TreeStorage& operator=(const TreeStorage&) = delete;
+  ~TreeStorage() { clear(); }
+
+  [[nodiscard]] std::size_t size() const { return state_.size; }
+  [[nodiscard]] const Allocator& allocator() const { return allocator_; }
+  [[nodiscard]] ChildRef root() const { return state_.root; }
+  /// The tight box of everything; the empty box if there is nothing.
+  [[nodiscard]] const BoxType& root_box() const { return state_.root_box; }
+  [[nodiscard]] const NodeType& node(std::uint32_t index) const { return nodes_[index]; }
+  [[nodiscard]] NodeType& node(std::uint32_t index) { return nodes_[index]; }
+  [[nodiscard]] const LeafType& leaf(std::uint32_t index) const { return leaves_[index]; }
+  [[nodiscard]] LeafType& leaf(std::uint32_t index) { return leaves_[index]; }
+  [[nodiscard]] const Slot& slot(std::uint32_t index) const { return slots_[index]; }
+  [[nodiscard]] Slot& slot(std::uint32_t index) { return slots_[index]; }
+  [[nodiscard]] std::size_t leaf_capacity() const { return leaves_.size(); }
+  [[nodiscard]] std::size_t slot_capacity() const { return slots_.size(); }
+  [[nodiscard]] bool is_alive(std::uint32_t slot_index, std::uint32_t generation) const {
+    return slots_.is_alive(slot_index, generation);
+  }
+  [[nodiscard]] Value& value(std::uint32_t slot_index) const {
+    const Slot& where = slots_[slot_index];
+    return leaves_[where.leaf].values()[where.position];
+  }
+  [[nodiscard]] BoxType box(std::uint32_t slot_index) const {
+    const Slot& where = slots_[slot_index];
+    return leaves_[where.leaf].box(where.position);
+  }
+  /// Whether the box of a big leaf may be too large (shrink_leaf).
+  [[nodiscard]] bool is_loose() const { return state_.any_loose; }
+  void set_loose() { state_.any_loose = true; }
+
+  // --- links: what hangs at the side of a node, or at `none` the root ---
+
+  ChildRef& link(std::uint32_t parent, std::uint32_t side) {
+    return parent == none ? state_.root : nodes_[parent].child[side];
+  }
+  [[nodiscard]] BoxType link_box(std::uint32_t parent, std::uint32_t side) const {
+    return parent == none ? state_.root_box : nodes_[parent].child_box(side);
+  }
+  void set_link_box(std::uint32_t parent, std::uint32_t side, const BoxType& box) {
+    if (parent == none) {
+      state_.root_box = box;
+    } else {
+      nodes_[parent].set_child_box(side, box);
+    }
+  }
+
+  /// The volume of what hangs at this link. @pre the parent is a node
+  [[nodiscard]] Cell<T, D> link_cell(std::uint32_t parent, std::uint32_t side) const {
+    const NodeType& above = nodes_[parent];
+    return above.cell.child(above.split(), static_cast<Side>(side));
+  }
+
+  void attach_leaf(std::uint32_t index, std::uint32_t parent, std::uint32_t side) {
+    leaves_[index].parent = parent;
+    leaves_[index].side = static_cast<std::uint8_t>(side);
+    link(parent, side) = ChildRef::leaf(index);
+  }
+  void attach_node(std::uint32_t index, std::uint32_t parent, std::uint32_t side) {
+    nodes_[index].parent = parent;
+    nodes_[index].side = static_cast<std::uint8_t>(side);
+    link(parent, side) = ChildRef::node(index);
+  }
+
+  // --- slots, nodes and leaves as numbered objects ---
+
+  std::uint32_t take_slot() { return slots_.take(); }
+  void release_taken_slot(std::uint32_t id) {
+    slots_.release_taken(id);
+    ++state_.size;
+  }
+  void free_slot(std::uint32_t id) {
+    slots_.free(id);
+    --state_.size;
+  }
+
+  std::uint32_t new_node() {
+    if (state_.free_node == none) {
+      nodes_.push_back({});
+      return static_cast<std::uint32_t>(nodes_.size() - 1);
+    }
+    const std::uint32_t index = state_.free_node;
+    state_.free_node = nodes_[index].parent;
+    nodes_[index] = NodeType{};
+    return index;
+  }
+  void free_node(std::uint32_t index) {
+    nodes_[index].parent = state_.free_node;
+    state_.free_node = index;
+  }
+  std::uint32_t new_leaf(std::uint32_t capacity, std::uint8_t rows) {
+    if (state_.free_leaf == none) {
+      leaves_.push_back({});
+      leaves_.back().parent = none;
+      state_.free_leaf = static_cast<std::uint32_t>(leaves_.size() - 1);
+    }
+    std::byte* data = Memory::allocate(allocator_, capacity, rows);
+    const std::uint32_t index = state_.free_leaf;
+    state_.free_leaf = leaves_[index].parent;
+    leaves_[index] = LeafType{};
+    leaves_[index].data = data;
+    leaves_[index].capacity = capacity;
+    leaves_[index].rows = rows;
+    return index;
+  }
+  void free_leaf(std::uint32_t index) {
+    release_leaf_memory(leaves_[index]);
+    leaves_[index].parent = state_.free_leaf;
+    state_.free_leaf = index;
+  }
+  static std::uint32_t capacity_for(std::uint32_t count) {
+    if (count > leaf_limit) return count + count / 2;
+    std::uint32_t capacity = least_capacity;
+    while (capacity < count) capacity *= 2;
+    return capacity < leaf_limit ? capacity : leaf_limit;
+  }
+
+  /// Moves the element from one leaf to the end of another, and tells its slot.
+  void move_element(LeafType& from, std::uint32_t at, std::uint32_t to_index, bool same_frame) {
+    LeafType& to = leaves_[to_index];
+    const std::uint32_t end = to.count++;
+    if (same_frame) {
+      to.copy_box(from, at, end);
+    } else {
+      to.set_box(end, from.box(at));
+    }
+    const std::uint32_t id = from.ids()[at];
+    to.ids()[end] = id;
+    Value& value = from.values()[at];
+    ::new (static_cast<void*>(to.values() + end)) Value(std::move(value));
+    value.~Value();  // NOLINT(bugprone-use-after-move): what was moved from is destroyed
+    slots_[id].leaf = to_index;
+    slots_[id].position = end;
+  }
+
+  void enlarge_leaf(std::uint32_t index, std::uint32_t capacity, std::uint8_t rows) {
+    LeafType bigger = leaves_[index];
+    bigger.capacity = capacity;
+    bigger.rows = rows;
+    bigger.data = Memory::allocate(allocator_, capacity, rows);
+    LeafType& old = leaves_[index];
+    bigger.copy_all(old);
+    Value* from = old.values();
+    Value* to = bigger.values();
+    for (std::uint32_t i = 0; i < old.count; ++i) {
+      ::new (static_cast<void*>(to + i)) Value(std::move(from[i]));
+      from[i].~Value();
+    }
+    Memory::free(allocator_, old);
+    old = bigger;
+  }
+
+  // --- the whole ---
+
+  /// Adds many elements: entries[i] is {box, slot_capacity() + i} and belongs to values[i]. Those whose box
+  /// is not valid have been left out of `entries`, but not of `values`. The whole tree is built anew.
+  template <class Values>
+  void insert_all(std::vector<BuildEntry<T, D>>& entries, Values& values) {
+    const std::size_t first_new = slots_.size();
+    const std::size_t added = entries.size();
+    entries.reserve(added + state_.size);
+    for (std::uint32_t id = 0; id < first_new; ++id) {
+      if (slots_[id].leaf != none) entries.push_back({box(id), id});
+    }
+    Build<TreeStorage> fresh(allocator_);
+    fresh.run(entries);
+    slots_.grow(values.size());
+    // From here on nothing fails.
+    for (std::uint32_t l = 0; l < fresh.leaves.size(); ++l) {
+      LeafType& home = fresh.leaves[l];
+      for (std::uint32_t i = 0; i < home.count; ++i) {
+        const std::uint32_t id = home.ids()[i];
+        Value& from = id < first_new ? value(id) : values[id - first_new];
+        ::new (static_cast<void*>(home.values() + i)) Value(std::move(from));
+        if (id >= first_new) {
+          slots_[id].leaf = l;
+          slots_[id].position = i;
+        }
+      }
+    }
+    // Old slots are redirected only after all old values have been read through them.
+    for (std::uint32_t l = 0; l < fresh.leaves.size() && first_new > 0; ++l) {
+      const LeafType& home = fresh.leaves[l];
+      for (std::uint32_t i = 0; i < home.count; ++i) {
+        slots_[home.ids()[i]].leaf = l;
+        slots_[home.ids()[i]].position = i;
+      }
+    }
+    for (LeafType& each : leaves_) release_leaf_memory(each);
+    leaves_.clear();
+    nodes_.swap(fresh.nodes);
+    leaves_.swap(fresh.leaves);
+    slots_.free_unused(first_new);
+    state_ = {none, none, fresh.root, fresh.root_box, size() + added, false};
+  }
+
+  /// Takes over the shape, the slots and the boxes of another tree, and makes each value by `make(Value&)`.
+  /// @pre this tree is empty and new
+  template <class Other, class Make>
+  void assign_from(Other& other, Make&& make) {
+    nodes_.assign(other.nodes_.begin(), other.nodes_.end());
+    slots_.assign(other.slots_);
+    leaves_.resize(other.leaves_.size());
+    for (std::size_t l = 0; l < leaves_.size(); ++l) {
+      const LeafType& from = other.leaves_[l];
+      LeafType& to = leaves_[l];
+      to.parent = from.parent;
+      if (from.data == nullptr) continue;
+      to.side = from.side;
+      to.loose = from.loose;
+      to.indivisible = from.indivisible;
+      to.rows = from.rows;
+      to.data = Memory::allocate(allocator_, from.capacity, from.rows);
+      to.capacity = from.capacity;
+      to.copy_all(from);
+      for (std::uint32_t i = 0; i < from.count; ++i, ++to.count) {
+        ::new (static_cast<void*>(to.values() + i)) Value(make(from.values()[i]));
+      }
+    }
+    state_ = other.state_;
+  }
+
+  void clear() noexcept {
+    for (LeafType& each : leaves_) release_leaf_memory(each);
+    nodes_.clear();
+    leaves_.clear();
+    slots_.free_all();
+    state_ = {};
+  }
+
+  void swap(TreeStorage& other) noexcept {
+    using std::swap;
+    if constexpr (std::allocator_traits<Allocator>::propagate_on_container_swap::value) {
+      swap(allocator_, other.allocator_);
+    }
+    nodes_.swap(other.nodes_);
+    leaves_.swap(other.leaves_);
+    slots_.swap(other.slots_);
+    swap(state_, other.state_);
+  }
+
+  /// Takes over everything of another tree. @pre the allocators are equal, or propagate on move assignment
+  void replace_by(TreeStorage& other) noexcept {
+    clear();
+    if constexpr (std::allocator_traits<Allocator>::propagate_on_container_move_assignment::value) {
+      allocator_ = other.allocator_;
+    }
+    nodes_ = std::move(other.nodes_);
+    leaves_ = std::move(other.leaves_);
+    slots_.take_over(other.slots_);
+    state_ = std::exchange(other.state_, {});
+    other.leaves_.clear();
+    other.nodes_.clear();
+  }
+
+  /// Bytes of the tables, used and reserved, without the leaves' blocks.
+  [[nodiscard]] std::size_t table_bytes() const {
+    return nodes_.capacity() * sizeof(NodeType) + leaves_.capacity() * sizeof(LeafType) + slots_.bytes();
+  }
+
+ private:
+  void release_leaf_memory(LeafType& which) noexcept {
+    for (std::uint32_t i = 0; i < which.count; ++i) which.values()[i].~Value();
+    Memory::free(allocator_, which);
+    which = LeafType{};
+  }
+
+  [[no_unique_address]] Allocator allocator_;
+  Nodes nodes_;
+  Leaves leaves_;
+  SlotTable<Rebound<Slot>> slots_;
+  struct State {
+    std::uint32_t free_node = none;
+    std::uint32_t free_leaf = none;
+    ChildRef root;
+    BoxType root_box = empty_box<T, D>();
+    std::size_t size = 0;
+    bool any_loose = false;
+  };
+  State state_;
+};
+
+template <class Tree>
+using TreeBox = typename Tree::BoxType;
+template <class Tree>
+using TreeCell = Cell<typename Tree::Scalar, Tree::dimension>;
+template <class Tree>
+using TreeSplit = Split<typename Tree::Scalar, Tree::dimension>;
+template <class Tree>
+TreeBox<Tree> no_box() {
+  return empty_box<typename Tree::Scalar, Tree::dimension>();
+}
+
+}  // namespace spatial::detail
