@@ -50,9 +50,10 @@ struct Surroundings {
   /// of the tension-free mesh's bounding box.
   double longest_way = 0;
   /// An implicit step solves its system until the residual is this part of what it was, in at most so many
-  /// iterations.
+  /// iterations: hundreds for stiff cloth of a thousand nodes that obstacles hold, and twice as many for
+  /// edges of half the length.
   double tolerance = 1e-6;
-  std::size_t most_iterations = 1000;
+  std::size_t most_iterations = 10000;
 };
 
 }  // namespace cut

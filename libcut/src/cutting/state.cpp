@@ -1,6 +1,8 @@
 #include "cutting/state.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 #include "mesh/vector3.hpp"
 
@@ -56,15 +58,15 @@ TriangleWork make_work(const HybridMesh& mesh, AncestorId ancestor, const MergeD
 
 void add_works(const HybridMesh& mesh, std::vector<TriangleWork>& works,
                const std::vector<AncestorId>& ancestors, const MergeDistances& distances) {
-  const std::size_t present = works.size();
-  std::size_t next = 0;
+  std::vector<TriangleWork> all;
+  all.reserve(works.size() + ancestors.size());
+  auto next = works.begin();
   for (const AncestorId t : ancestors) {
-    while (next < present && works[next].ancestor < t) ++next;
-    if (next < present && works[next].ancestor == t) continue;
-    works.push_back(make_work(mesh, t, distances));
+    for (; next != works.end() && next->ancestor < t; ++next) all.push_back(std::move(*next));
+    if (next == works.end() || next->ancestor != t) all.push_back(make_work(mesh, t, distances));
   }
-  std::inplace_merge(works.begin(), works.begin() + static_cast<std::ptrdiff_t>(present), works.end(),
-                     [](const TriangleWork& a, const TriangleWork& b) { return a.ancestor < b.ancestor; });
+  std::move(next, works.end(), std::back_inserter(all));
+  works = std::move(all);
 }
 
 lattice::Metric rest_metric(const AncestorMesh& ancestors, AncestorId ancestor) {
