@@ -6,7 +6,7 @@
 namespace cut {
 namespace {
 
-template <bool both_nodes>
+template <bool BothNodes>
 void add_spring_forces(const SpringArrays& springs, const PaddedVector* positions,
                        const PaddedVector* velocities, PaddedVector* forces) {
   for (std::size_t i = 0; i < springs.nodes.size(); ++i) {
@@ -28,7 +28,7 @@ void add_spring_forces(const SpringArrays& springs, const PaddedVector* position
     forces[a].x += fx;
     forces[a].y += fy;
     forces[a].z += fz;
-    if constexpr (!both_nodes) continue;
+    if constexpr (!BothNodes) continue;
     forces[b].x -= fx;
     forces[b].y -= fy;
     forces[b].z -= fz;

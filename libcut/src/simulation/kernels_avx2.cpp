@@ -32,7 +32,7 @@ SNIP_AVX2 inline __m256d products(const Columns& a, const Columns& b) {
                        _mm256_mul_pd(a.z, b.z));
 }
 
-template <bool both_nodes>
+template <bool BothNodes>
 SNIP_AVX2 void add_spring_forces(const SpringArrays& springs, const PaddedVector* positions,
                                  const PaddedVector* velocities, PaddedVector* forces) {
   const __m256d one = _mm256_set1_pd(1);
@@ -59,7 +59,7 @@ SNIP_AVX2 void add_spring_forces(const SpringArrays& springs, const PaddedVector
     const auto add = [&](std::size_t k, __m256d force) SNIP_AVX2 {
       PaddedVector& a = forces[nodes[k][0]];
       store(a, _mm256_add_pd(load(a), force));
-      if constexpr (!both_nodes) return;
+      if constexpr (!BothNodes) return;
       PaddedVector& b = forces[nodes[k][1]];
       store(b, _mm256_sub_pd(load(b), force));
     };
