@@ -231,6 +231,56 @@ TEST_CASE("without cutters nothing is cut; anchored nodes keep their place and t
   }
 }
 
+TEST_CASE("moving anchors take their nodes and all anchored copies along") {
+  // The right border waits, turns about y while it moves up, and stays; it is cut in two after a while.
+  SceneRun run = start(scene_of(R"({"cloth": {"shape": "grid", "columns": 4, "rows": 4, "spacing": 0.25},
+    "anchors": [{"box": [[0, 0, 0], [0, 1, 0]]}, {"box": [[1, 0, 0], [1, 1, 0]], "axis": [0, 1, 0],
+      "keyframes": [{"at": 0.1}, {"at": 0.5, "move": [0, 0, 0.5], "degrees": 30}]}],
+    "cutters": [{"at": 0.3, "mesh": {"shape": "plane", "centre": [0.5, 0.6, 0], "u": [4, 0, 0], "v": [0, 0, 4]}}],
+    "frames": 40})"));
+  const auto& keyframes = run.scene().anchors[1].keyframes;
+  std::size_t moved = 0;
+  while (run.frame().number < run.scene().frames) {
+    REQUIRE(run.advance());
+    const cut::HybridMesh& mesh = run.mesh();
+    moved = 0;
+    for (std::size_t n = 0; n < mesh.positions.size(); ++n) {
+      if (!run.simulation().anchored(cut::NodeId{n})) continue;
+      const Eigen::Vector3d& rest = mesh.ancestors.rest_positions[mesh.buffers.nodes[n].index()];
+      moved += rest.x() == 1;
+      const Eigen::Vector3d wanted =
+          rest.x() == 1 ? snip::placed(rest, {0, 1, 0}, snip::keyframe_at(keyframes, run.frame().time))
+                        : rest;
+      CHECK((mesh.positions[n] - wanted).norm() < 1e-12);
+    }
+  }
+  CHECK(run.frame().pieces == 2);
+  CHECK(moved == 5);
+  CHECK(run.mesh().positions[4].isApprox(Eigen::Vector3d(std::sqrt(0.75), 0, 0), 1e-9));
+}
+
+TEST_CASE("moving anchors: two for a node, and one that is too fast, are named") {
+  const auto message = [](const std::string& anchors) {
+    auto run = SceneRun::start(scene_of(R"({"cloth": {"shape": "grid", "columns": 2, "rows": 2},)"
+                                        "\n\"anchors\": [" +
+                                        anchors + "]}"),
+                               ".");
+    if (!run) return run.error().message;
+    SceneRun going = std::move(*run);
+    const auto advanced = going.advance();
+    return advanced ? "no error" : advanced.error().message;
+  };
+  const std::string up = R"("keyframes": [{"at": 1, "move": [0, 0, 1]}]})";
+  CHECK(message(R"({"nodes": [1, 2]}, {"nodes": [2, 3]})") == "no error");
+  CHECK(message(R"({"nodes": [1, 2]}, {"nodes": [3], )" + up) == "no error");
+  CHECK(message(R"({"nodes": [1, 2]}, {"nodes": [2, 3], )" + up) ==
+        "s.json:2: /anchors/1: node 2 has an anchor already, and one of the two moves");
+  CHECK(
+      message(R"({"nodes": [1, 2], "keyframes": [{"at": 1e-4, "move": [0, 100, 0]}]})") ==
+      "frame 1 (0 s): s.json:2: /anchors/0: it takes node 1 further in a time step of 0.001 s than the cloth "
+      "is long, 2.83");
+}
+
 TEST_CASE("mass and density say the same in two ways") {
   const auto mass = [](const std::string& material) {
     return start(scene_of("{" + sheet + ", \"material\": {" + material + "}}")).simulation().total_mass();

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <cmath>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -155,6 +156,22 @@ TEST_CASE("what a material does not say follows from what it says") {
   CHECK(material(R"("stiffness": 0)").bending_damping == 0);
 }
 
+TEST_CASE("anchors move from keyframe to keyframe, from where the cloth is") {
+  const Scene scene = good("{" + cloth + R"(, "anchors": [{"nodes": [0]}, {"box": [[0, 0, 0], [1, 0, 0]],
+    "axis": [0, 2, 0], "keyframes": [{"at": 1}, {"at": 3, "move": [0, 0, 4], "degrees": 90}]}]})");
+  REQUIRE(scene.anchors.size() == 2);
+  CHECK(scene.anchors[0].keyframes.empty());
+  const snip::Anchor& anchor = scene.anchors[1];
+  const auto at = [&](double time) {
+    return snip::placed(Vector3d(1, 0, 0), anchor.axis, snip::keyframe_at(anchor.keyframes, time));
+  };
+  CHECK(at(0) == Vector3d(1, 0, 0));
+  CHECK(at(1) == Vector3d(1, 0, 0));
+  CHECK(at(2).isApprox(Vector3d(std::sqrt(0.5), 0, 2 - std::sqrt(0.5))));
+  CHECK(at(3).isApprox(Vector3d(0, 0, 3)));
+  CHECK(at(9).isApprox(Vector3d(0, 0, 3)));
+}
+
 TEST_CASE("integrators and obstacles: names, and what is said about wrong ones") {
   CHECK(good("{" + cloth + R"(, "integrator": "implicit_euler"})").surroundings.integrator ==
         cut::Integrator::implicit_euler);
@@ -292,6 +309,13 @@ TEST_CASE("a value out of range is named together with the range") {
         "s.json:3: /material/stiffness: cannot be negative, is -2");
   CHECK(error_with("\"material\": {\"bending_stiffness\": -2}") ==
         "s.json:3: /material/bending_stiffness: cannot be negative, is -2");
+  CHECK(error_with(R"("anchors": [{"nodes": [0], "axis": [1, 0, 0]}])") ==
+        "s.json:3: /anchors/0/axis: is what keyframes turn the anchor about, and there are none");
+  CHECK(error_with(R"("anchors": [{"nodes": [0], "keyframes": [{"at": 0}, {"at": 1}]}])") ==
+        "s.json:3: /anchors/0/keyframes/0/at: has to be greater than 0: at the start the anchor is where the "
+        "cloth is");
+  CHECK(error_with(R"("anchors": [{"nodes": [0], "keyframes": [{"at": 2}, {"at": 1}]}])") ==
+        "s.json:3: /anchors/0/keyframes/1/at: has to be later than the keyframe before");
   CHECK(error_with("\"material\": {\"mass\": 1, \"density\": 1}") ==
         "s.json:3: /material: only one of density and mass can be given");
   CHECK(error_with("\"integrator\": \"forward_eular\"") ==

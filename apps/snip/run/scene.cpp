@@ -1,4 +1,4 @@
-// When and where the cutters of a scene are, see scene.hpp.
+// When and where the cutters and anchors of a scene are, see scene.hpp.
 #include "snip/run/scene.hpp"
 
 #include <algorithm>
@@ -7,19 +7,27 @@
 
 namespace snip {
 
+Keyframe keyframe_at(const std::vector<Keyframe>& keyframes, double time) {
+  const auto next =
+      std::find_if(keyframes.begin(), keyframes.end(), [&](const Keyframe& k) { return k.at > time; });
+  if (next == keyframes.end()) return keyframes.back();
+  if (next == keyframes.begin()) return *next;
+  const Keyframe& before = *(next - 1);
+  const double t = (time - before.at) / (next->at - before.at);
+  return {time, before.move + t * (next->move - before.move),
+          before.degrees + t * (next->degrees - before.degrees)};
+}
+
+Eigen::Vector3d placed(const Eigen::Vector3d& point, const Eigen::Vector3d& axis, const Keyframe& keyframe) {
+  if (keyframe.degrees == 0) return point + keyframe.move;
+  return Eigen::AngleAxisd(keyframe.degrees * std::numbers::pi / 180, axis.normalized()) * point +
+         keyframe.move;
+}
+
 std::vector<Eigen::Vector3d> blade_at(const MovingBlade& blade, double time) {
-  const auto& keys = blade.keyframes;
-  const auto next = std::find_if(keys.begin(), keys.end(), [&](const Keyframe& k) { return k.at > time; });
-  Keyframe now = next == keys.end() ? keys.back() : *next;
-  if (next != keys.begin() && next != keys.end()) {
-    const Keyframe& before = *(next - 1);
-    const double t = (time - before.at) / (next->at - before.at);
-    now.move = before.move + t * (next->move - before.move);
-    now.degrees = before.degrees + t * (next->degrees - before.degrees);
-  }
-  const Eigen::AngleAxisd turn(now.degrees * std::numbers::pi / 180, blade.axis.normalized());
+  const Keyframe now = keyframe_at(blade.keyframes, time);
   std::vector<Eigen::Vector3d> points;
-  for (const Eigen::Vector3d& p : blade.edge) points.push_back((now.degrees == 0 ? p : turn * p) + now.move);
+  for (const Eigen::Vector3d& p : blade.edge) points.push_back(placed(p, blade.axis, now));
   return points;
 }
 

@@ -31,10 +31,19 @@ struct MeshSource {
   std::string place;  ///< where the scene file says so, for messages
 };
 
+/// Where something is at a time: first turned about its axis, then moved.
+struct Keyframe {
+  double at = 0;
+  Eigen::Vector3d move = Eigen::Vector3d::Zero();
+  double degrees = 0;
+};
+
 /// Nodes that are held: those in a box, or those with an index.
 struct Anchor {
   std::optional<Eigen::AlignedBox3d> box;
   std::vector<std::uint32_t> nodes;
+  Eigen::Vector3d axis{0, 0, 1};
+  std::vector<Keyframe> keyframes;  ///< by increasing time, from time 0 and the start on; empty: it stays
   std::string place;
 };
 
@@ -45,13 +54,6 @@ struct StaticCutter {
   double interval = 0;
   std::size_t times = 1;
   Eigen::Vector3d step = Eigen::Vector3d::Zero();
-};
-
-/// Where a blade is at a time: first turned about its axis, then moved.
-struct Keyframe {
-  double at = 0;
-  Eigen::Vector3d move = Eigen::Vector3d::Zero();
-  double degrees = 0;
 };
 
 /// A polyline that cuts what it sweeps from its first keyframe to its last.
@@ -103,6 +105,13 @@ struct Scene {
   /// Seconds from one frame to the next.
   [[nodiscard]] double frame_time() const { return time_step * static_cast<double>(steps_per_frame); }
 };
+
+/// Between keyframes all changes evenly; before the first it is there, after the last it stays there.
+/// @pre there is a keyframe
+Keyframe keyframe_at(const std::vector<Keyframe>& keyframes, double time);
+
+/// Where a keyframe puts a point.
+Eigen::Vector3d placed(const Eigen::Vector3d& point, const Eigen::Vector3d& axis, const Keyframe& keyframe);
 
 /// The blade's points at a time; before the first keyframe it waits there, after the last it rests there.
 std::vector<Eigen::Vector3d> blade_at(const MovingBlade& blade, double time);

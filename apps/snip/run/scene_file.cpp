@@ -66,14 +66,39 @@ void read_material(const JsonValue& value, Scene& scene) {
     value.at("tear_limit").fail("has to be greater than 1: it is a length over the length without tension");
 }
 
+/// Keyframes by increasing time, at least so many.
+void read_keyframes(const JsonValue& value, std::size_t least, std::vector<Keyframe>& keyframes) {
+  for (const JsonValue& item : value.list(least)) {
+    item.allow_keys({"at", "move", "degrees"});
+    Keyframe keyframe;
+    keyframe.at = item.at("at").not_negative();
+    take(item, "move", keyframe.move, vector);
+    take(item, "degrees", keyframe.degrees, number);
+    if (!keyframes.empty() && !(keyframe.at > keyframes.back().at))
+      item.at("at").fail("has to be later than the keyframe before");
+    keyframes.push_back(keyframe);
+  }
+}
+
 Anchor read_anchor(const JsonValue& value) {
-  value.allow_keys({"box", "nodes"});
-  Anchor anchor{{}, {}, value.place()};
+  value.allow_keys({"box", "nodes", "axis", "keyframes"});
+  Anchor anchor;
+  anchor.place = value.place();
   if (value.one_of({"box", "nodes"}) == "box") {
     anchor.box = read_box(value.at("box"));
   } else {
     for (const JsonValue& node : value.at("nodes").list(1))
       anchor.nodes.push_back(static_cast<std::uint32_t>(node.count(0, 0xfffffffe)));
+  }
+  take(value, "axis", anchor.axis, [](const JsonValue& v) { return v.nonzero_vector(); });
+  if (const auto keyframes = value.find("keyframes")) {
+    const JsonValue first = keyframes->list(1)[0].at("at");
+    if (!(first.number() > 0))
+      first.fail("has to be greater than 0: at the start the anchor is where the cloth is");
+    anchor.keyframes.push_back({});
+    read_keyframes(*keyframes, 1, anchor.keyframes);
+  } else if (value.has("axis")) {
+    value.at("axis").fail("is what keyframes turn the anchor about, and there are none");
   }
   return anchor;
 }
@@ -107,16 +132,7 @@ MovingBlade read_blade(const JsonValue& value) {
   blade.place = value.place();
   for (const JsonValue& point : value.at("edge").list(2)) blade.edge.push_back(point.vector());
   take(value, "axis", blade.axis, [](const JsonValue& v) { return v.nonzero_vector(); });
-  for (const JsonValue& item : value.at("keyframes").list(2)) {
-    item.allow_keys({"at", "move", "degrees"});
-    Keyframe keyframe;
-    keyframe.at = item.at("at").not_negative();
-    take(item, "move", keyframe.move, vector);
-    take(item, "degrees", keyframe.degrees, number);
-    if (!blade.keyframes.empty() && !(keyframe.at > blade.keyframes.back().at))
-      item.at("at").fail("has to be later than the keyframe before");
-    blade.keyframes.push_back(keyframe);
-  }
+  read_keyframes(value.at("keyframes"), 2, blade.keyframes);
   return blade;
 }
 

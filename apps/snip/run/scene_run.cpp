@@ -98,7 +98,9 @@ Result<SceneRun> SceneRun::start(const Scene& scene, const std::filesystem::path
   auto simulation = cut::Simulation::build(*mesh, *material);
   if (!simulation) return Error{fmt::format("{}: {}", scene.material_place, simulation.error().message)};
   SceneRun run(scene, std::move(*cloth), std::move(*mesh), std::move(*simulation));
-  if (const auto held = run.hold_anchors(); !held) return held.error();
+  auto anchors = Anchors::hold(scene, run.cloth_, run.mesh_, run.simulation_);
+  if (!anchors) return anchors.error();
+  run.anchors_ = std::move(*anchors);
   if (const auto checked = run.check_obstacles(); !checked) return checked.error();
   if (const auto loaded = run.load_cutters(folder); !loaded) return loaded.error();
   run.watch_time_step("");
@@ -117,28 +119,6 @@ Result<> SceneRun::load_cutters(const std::filesystem::path& folder) {
   cutters_.reserve(scene_.cutters.size() + 1);
   for (std::size_t i = 0; i < scene_.cutters.size() + 1; ++i) cutters_.emplace_back(*distances);
   for (std::size_t i = 0; i < scene_.blades.size(); ++i) blades_.emplace_back(*distances);
-  return {};
-}
-
-Result<> SceneRun::hold_anchors() {
-  const cut::AncestorMesh& ancestors = mesh_.ancestors;
-  for (const Anchor& anchor : scene_.anchors) {
-    std::vector<unsigned char> held(cloth_.positions.size());
-    for (const std::uint32_t node : anchor.nodes) {
-      if (node >= held.size())
-        return Error{
-            fmt::format("{}: there is no node {}: the cloth has {} nodes", anchor.place, node, held.size())};
-      held[node] = 1;
-    }
-    bool any = false;
-    for (std::size_t n = 0; n < ancestors.rest_positions.size(); ++n) {
-      const bool in_box = anchor.box && anchor.box->contains(ancestors.rest_positions[n]);
-      if (!in_box && !held[ancestors.input_node[n]]) continue;
-      simulation_.anchor(cut::AncestorNodeId{n}, mesh_);
-      any = true;
-    }
-    if (!any) return Error{fmt::format("{}: no node of the cloth is there", anchor.place)};
-  }
   return {};
 }
 
@@ -211,6 +191,8 @@ Result<> SceneRun::advance() {
   }
   if (!cut) return failed(cut.error().message);
   const auto moving = Clock::now();
+  if (const auto aimed = anchors_.aim(scene_, to, mesh_, simulation_); !aimed)
+    return failed(aimed.error().message);
   const auto error = simulation_.step(mesh_, scene_.time_step, scene_.steps_per_frame);
   frame_.simulation_ms = milliseconds_since(moving);
   if (error) return failed(explained(*error));

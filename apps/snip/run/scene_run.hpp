@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "snip/mesh_file/mesh.hpp"
+#include "snip/run/anchors.hpp"
 #include "snip/run/piece_colours.hpp"
 #include "snip/run/scene.hpp"
 
@@ -53,7 +54,6 @@ class SceneRun {
  private:
   SceneRun(Scene scene, Mesh cloth, cut::HybridMesh mesh, cut::Simulation simulation);
   Result<> load_cutters(const std::filesystem::path& folder);
-  Result<> hold_anchors();
   [[nodiscard]] Result<> check_obstacles() const;
   Result<> take_over(const cut::Result<cut::Changes>& changes, const std::string& name);
   Result<> cut_due(double from, double to);
@@ -65,6 +65,7 @@ class SceneRun {
   Mesh cloth_;
   cut::HybridMesh mesh_;
   cut::Simulation simulation_;
+  Anchors anchors_;
   std::vector<cut::TriangleMesh> cutter_meshes_;
   std::vector<cut::Cutter> cutters_;  // those of cutter_meshes_, then one for tears
   std::vector<cut::Blade> blades_;
