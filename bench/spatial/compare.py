@@ -29,6 +29,10 @@ LINES = [  # operation, ours, peers, wanted
     ("merge", "pcd", ["boost_rtree"], 5),
     ("merge", "pcd", ["unordered_map"], 2),
     ("within", "pcd", ["nanoflann"], 3),
+    *[(name, "bbtt", ["box2d"], "") for name in ("insert", "query_1", "query_10", "query_100", "query_1%", "erase",
+                                                 "move_1%", "move_100%")],
+    *[(name, "bbtt", ["libspatialindex"], "") for name in ("insert", "query_10", "load", "query_loaded_10",
+                                                           "nearest_10", "erase", "move_100%")],
 ]
 
 

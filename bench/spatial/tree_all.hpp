@@ -99,19 +99,18 @@ void add_points(std::size_t count, const std::string& type) {
 
 template <class T, std::size_t D>
 void add_all(const std::string& type) {
-  for (const std::size_t count : {std::size_t{1000}, std::size_t{100000}, std::size_t{1000000}}) {
-    for (const std::string name : data::names) {
-      if (name == "overlapping" && count > 100000) continue;
-      add<T, D, peers::Bbtt>(name, count, type, "bbtt", false);
-      add<T, D, peers::Linear>(name, count, type, "boost_linear", false);
+  for_each_scene(10'000'000, [&](const std::string& name, std::size_t count) {
+    add<T, D, peers::Bbtt>(name, count, type, "bbtt", false);
+    add<T, D, peers::Linear>(name, count, type, "boost_linear", false);
+    if (count <= 1'000'000) {
       add<T, D, peers::Quadratic>(name, count, type, "boost_quadratic", false);
       add<T, D, peers::Rstar>(name, count, type, "boost_rstar", false);
-      add<T, D, peers::Bbtt>(name, count, type, "bbtt", true);
-      add<T, D, peers::Rstar>(name, count, type, "boost_packed", true);
-      add_cgal_pairs<T, D>(name, count, type);
     }
-    add_points<T, D>(count, type);
-  }
+    add<T, D, peers::Bbtt>(name, count, type, "bbtt", true);
+    add<T, D, peers::Rstar>(name, count, type, "boost_packed", true);
+    add_cgal_pairs<T, D>(name, count, type);
+    if (name == "uniform") add_points<T, D>(count, type);
+  });
 }
 
 }  // namespace tree_benchmarks

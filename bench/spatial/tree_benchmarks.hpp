@@ -3,9 +3,13 @@
 #pragma once
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <functional>
+#include <initializer_list>
 #include <map>
+#include <memory>
 #include <string>
+#include <type_traits>
 
 #include "data.hpp"
 #include "peers.hpp"
@@ -63,6 +67,16 @@ const Peer& cached(const std::string& key, bool is_big, const std::function<Peer
   return *peer;
 }
 
+/// A tree of one's own to change. Peers that cannot be copied are built again.
+template <class Peer, class Boxes>
+std::unique_ptr<Peer> copy(const Peer& peer, const Boxes& boxes) {
+  if constexpr (std::is_copy_constructible_v<Peer>) {
+    return std::make_unique<Peer>(peer);
+  } else {
+    return std::make_unique<Peer>(Peer::one_by_one(boxes));
+  }
+}
+
 template <class T, std::size_t D, template <class, std::size_t> class P>
 void add(const std::string& data_name, std::size_t count, const std::string& type, const std::string& peer,
          bool packed) {
@@ -99,21 +113,25 @@ void add(const std::string& data_name, std::size_t count, const std::string& typ
     });
   }
   if (packed) {
-    for (const unsigned k : {1u, 10u, 100u}) {
-      reg("nearest_" + std::to_string(k), [=](benchmark::State& state) {
-        const auto& tree = built();
-        for (auto _ : state) {
-          std::size_t sum = 0;
-          for (const auto& p : get().points) sum += tree.nearest(p, k);
-          benchmark::DoNotOptimize(sum);
-        }
-      });
+    if constexpr (requires(const Peer& p, const spatial::Point<T, D>& at) { p.nearest(at, 1u); }) {
+      for (const unsigned k : {1u, 10u, 100u}) {
+        reg("nearest_" + std::to_string(k), [=](benchmark::State& state) {
+          const auto& tree = built();
+          for (auto _ : state) {
+            std::size_t sum = 0;
+            for (const auto& p : get().points) sum += tree.nearest(p, k);
+            benchmark::DoNotOptimize(sum);
+          }
+        });
+      }
     }
-    if (data_name != "overlapping") {
-      reg("pairs", [=](benchmark::State& state) {
-        const auto& tree = built();
-        for (auto _ : state) benchmark::DoNotOptimize(tree.pairs(get().boxes));
-      });
+    if constexpr (requires(const Peer& p) { p.pairs(get().boxes); }) {
+      if (data_name != "overlapping") {
+        reg("pairs", [=](benchmark::State& state) {
+          const auto& tree = built();
+          for (auto _ : state) benchmark::DoNotOptimize(tree.pairs(get().boxes));
+        });
+      }
     }
     return;
   }
@@ -121,7 +139,7 @@ void add(const std::string& data_name, std::size_t count, const std::string& typ
     const auto& boxes = get().boxes;
     for (auto _ : state) {
       state.PauseTiming();
-      auto tree = std::make_unique<Peer>(built());
+      auto tree = copy(built(), boxes);
       state.ResumeTiming();
       for (std::uint32_t i = 0; i < boxes.size(); i += 2) tree->erase(i, boxes[i]);
       state.PauseTiming();
@@ -132,7 +150,7 @@ void add(const std::string& data_name, std::size_t count, const std::string& typ
   for (const std::uint32_t step : {1u, 100u}) {
     reg(step == 1 ? "move_100%" : "move_1%", [=](benchmark::State& state) {
       const auto& s = get();
-      auto tree = std::make_unique<Peer>(built());
+      auto tree = copy(built(), s.boxes);
       bool forth = true;
       for (auto _ : state) {
         const auto& from = forth ? s.boxes : s.moved;
@@ -141,6 +159,19 @@ void add(const std::string& data_name, std::size_t count, const std::string& typ
         forth = !forth;
       }
     });
+  }
+}
+
+/// Calls `add(data, count)` for what is measured: all data up to a million elements, uniform data up to ten
+/// million, but no more than `most` elements.
+template <class Add>
+void for_each_scene(std::size_t most, Add&& add) {
+  for (std::size_t count = 1000; count <= std::min<std::size_t>(most, 10'000'000); count *= 10) {
+    for (const std::string name : data::names) {
+      if (name == "overlapping" && count > 100'000) continue;
+      if (name != "uniform" && count > 1'000'000) continue;
+      add(name, count);
+    }
   }
 }
 

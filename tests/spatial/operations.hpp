@@ -138,19 +138,78 @@ class Run {
                                                                               : "bulk insert counts";
   }
   const char* query(const spatial::Box<T, D>& q) {
+    using Box = spatial::Box<T, D>;
+    const auto inside = [](const Box& e, const Box& o) { return spatial::encloses(o, e); };
+    if (!agree(spatial::intersects(q), [&](const Box& e) { return spatial::touch(e, q); }))
+      return "intersects";
+    if (!agree(spatial::disjoint(q), [&](const Box& e) { return !spatial::touch(e, q); })) return "disjoint";
+    if (!agree(spatial::covered_by(q), [&](const Box& e) { return inside(e, q); })) return "covered_by";
+    if (!agree(spatial::covers(q), [&](const Box& e) { return inside(q, e); })) return "covers";
+    if (!agree(spatial::within(q), [&](const Box& e) { return strictly(e, q); })) return "within";
+    if (!agree(spatial::contains(q), [&](const Box& e) { return strictly(q, e); })) return "contains";
+    if (!agree(spatial::overlaps(q),
+               [&](const Box& e) { return interiors_meet(e, q) && !inside(e, q) && !inside(q, e); }))
+      return "overlaps";
+    return pairs();
+  }
+  template <class P, class Expected>
+  bool agree(const P& predicate, Expected expected_of) {
     std::vector<int> expected;
     for (const Element& e : elements_) {
-      if (spatial::touch(e.box, q)) expected.push_back(e.value);
+      if (expected_of(e.box)) expected.push_back(e.value);
     }
     std::vector<int> found;
-    tree_.query(spatial::intersects(q), std::back_inserter(found));
+    tree_.query(predicate, std::back_inserter(found));
     std::vector<int> lazily;
-    for (const int value : tree_.query(spatial::intersects(q))) lazily.push_back(value);
-    std::sort(found.begin(), found.end());
-    std::sort(lazily.begin(), lazily.end());
-    if (lazily != found) return "the lazy range finds the same";
+    for (const int value : tree_.query(predicate)) lazily.push_back(value);
+    for (auto* values : {&expected, &found, &lazily}) std::sort(values->begin(), values->end());
+    return found == expected && lazily == expected;
+  }
+  static bool strictly(const spatial::Box<T, D>& e, const spatial::Box<T, D>& q) {
+    bool result = spatial::encloses(q, e);
+    for (std::size_t a = 0; a < D; ++a) {
+      result &= e.min[a] < e.max[a] || (q.min[a] < e.min[a] && e.max[a] < q.max[a]);
+    }
+    return result;
+  }
+  static bool interiors_meet(const spatial::Box<T, D>& e, const spatial::Box<T, D>& q) {
+    bool result = true;
+    for (std::size_t a = 0; a < D; ++a) result &= q.min[a] < e.max[a] && e.min[a] < q.max[a];
+    return result;
+  }
+  const char* pairs() {
+    if (elements_.size() > 64) return nullptr;  // a matter of time
+    std::vector<std::pair<int, int>> expected, found;
+    for (const Element& a : elements_) {
+      for (const Element& b : elements_) {
+        if (a.value < b.value && spatial::touch(a.box, b.box)) expected.push_back({a.value, b.value});
+      }
+    }
+    tree_.pairs([&](int a, int b) { found.push_back({std::min(a, b), std::max(a, b)}); });
     std::sort(expected.begin(), expected.end());
-    return found == expected ? nullptr : "intersects";
+    std::sort(found.begin(), found.end());
+    return found == expected ? nullptr : "pairs";
+  }
+  /// The path from one corner of a box to the other, and on.
+  const char* along_path(const spatial::Box<T, D>& q) {
+    using Metric = spatial::detail::PathMetric<T, D>;
+    using S = typename Metric::S;
+    spatial::Point<S, D> origin, direction;
+    for (std::size_t a = 0; a < D; ++a) {
+      origin[a] = static_cast<S>(q.min[a]);
+      direction[a] = static_cast<S>(q.max[a]) - origin[a];
+    }
+    const Metric metric(origin, direction, std::numeric_limits<S>::infinity());
+    std::vector<S> expected;
+    for (const Element& e : elements_) {
+      const S t = metric.key(e.box);
+      if (t == t) expected.push_back(t);
+    }
+    std::sort(expected.begin(), expected.end());
+    std::vector<S> found;
+    tree_.query(spatial::ray_hits(origin, direction),
+                [&](const int&, spatial::Handle, S t) { found.push_back(t); });
+    return found == expected ? nullptr : "hits of a ray, in order";
   }
   const char* nearest(const spatial::Box<T, D>& q, std::size_t k) {
     using Metric = spatial::detail::BoxMetric<T, D>;
@@ -173,7 +232,8 @@ class Run {
     found.clear();
     auto range = tree_.query(spatial::nearest(q, k));
     for (auto i = range.begin(); i != range.end(); ++i) found.push_back(i.distance());
-    return found == expected ? nullptr : "nearest as a range";
+    if (found != expected) return "nearest as a range";
+    return along_path(q);
   }
   const char* erase_where(const spatial::Box<T, D>& q) {
     const std::size_t erased =
