@@ -174,7 +174,7 @@ TEST_CASE("The loops for AVX2 give the bits of the plain ones") {
       kernels.add_spring_forces(arrays, p.data(), v.data(), f.data());
       kernels.add_forces_at_first_node(arrays, p.data(), v.data(), f.data());
       sound = kernels.replace_by_velocities(update, inverse_mass, v.data(), f.data());
-      kernels.move(0.01, p, f.data());
+      kernels.move(0.01, p, f.data(), p.data());
       v.swap(f);
       f = forces;
     }

@@ -48,6 +48,18 @@ using Pulls = std::vector<std::vector<std::pair<std::uint32_t, double>>>;
 Pulls pulls_of(const cut::SpringBlocks& blocks) {
   Pulls pulls(blocks.node_count());
   for (const cut::SpringBlock& block : blocks.blocks()) {
+    const auto own = [&](std::uint32_t n) { return n >= block.first && n < block.last; };
+    for (const cut::SpringDiagonal& d : block.diagonals)
+      for (std::size_t i = 0; i < d.used.size(); ++i) {
+        if (d.used[i] == 0) {
+          CHECK(d.stiffness[i] == 0);
+          continue;
+        }
+        const auto a = static_cast<std::uint32_t>(d.first + i), b = a + d.offset;
+        CHECK((own(a) || own(b)));
+        if (own(a)) pulls[a].emplace_back(b, d.stiffness[i]);
+        if (own(b)) pulls[b].emplace_back(a, d.stiffness[i]);
+      }
     for (const auto* list : {&block.inner, &block.outer})
       for (std::size_t i = 0; i < list->nodes.size(); ++i) {
         const auto [a, b] = list->nodes[i];
@@ -72,7 +84,7 @@ TEST_CASE("blocks have each spring at both of its ends, however springs are set 
   std::mt19937 random(3);
   for (const std::size_t nodes : {std::size_t{10}, std::size_t{5000}}) {
     cut::SpringBlocks blocks;
-    blocks.reset(nodes);
+    blocks.reset(nodes, {1, 7, 30});
     CHECK((blocks.blocks().size() > 1) == (nodes > 10));
     const std::size_t count = 4 * nodes;
     cut::SpringArrays springs{std::vector<std::array<std::uint32_t, 2>>(count), std::vector<double>(count),
@@ -82,7 +94,10 @@ TEST_CASE("blocks have each spring at both of its ends, however springs are set 
       if (change % 100 == 0) blocks.add_copy(static_cast<std::uint32_t>(random() % blocks.node_count()));
       const std::size_t i = random() % count;
       const auto a = static_cast<std::uint32_t>(random() % blocks.node_count());
-      const auto b = random() % 5 == 0 ? a : static_cast<std::uint32_t>(random() % blocks.node_count());
+      const std::size_t kind = random() % 5;
+      auto b = static_cast<std::uint32_t>(random() % blocks.node_count());
+      if (kind == 0) b = a;
+      if (kind < 4) b = std::min(b, a + std::array<std::uint32_t, 4>{0, 1, 7, 30}[kind]);
       springs.nodes[i] = {a, b};
       springs.stiffness[i] = a == b ? 0 : static_cast<double>(change);
       blocks.set(springs, i, places[i]);

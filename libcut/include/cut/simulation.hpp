@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -35,6 +36,7 @@ struct alignas(32) PaddedVector {
 };
 
 struct VelocityUpdate;
+struct NodeArrays;
 
 /// The linear system of an implicit step (docs/simulation.md), and work space for solving it.
 struct ImplicitWork {
@@ -153,8 +155,14 @@ class Simulation {
   void take_over_fragments(const Changes& changes, const HybridMesh& mesh, std::size_t first_new_triangle);
   [[nodiscard]] std::array<const SpringArrays*, 2> spring_lists() const { return {&springs_, &bending_}; }
   void find_air_forces(const HybridMesh& mesh);
-  [[nodiscard]] bool go_through_blocks(const HybridMesh& mesh, const VelocityUpdate* update);
-  std::optional<Error> explicit_velocities(const HybridMesh& mesh, double time_step, double speed_limit);
+  void for_each_run(const std::function<void(std::size_t first, std::size_t last)>& body) const;
+  [[nodiscard]] NodeArrays node_arrays(bool moves);
+  void to_columns(const NodeArrays& nodes) const;
+  void from_columns(const NodeArrays& nodes) const;
+  [[nodiscard]] bool go_through_blocks(const HybridMesh& mesh, const VelocityUpdate* update,
+                                       const NodeArrays& nodes);
+  std::optional<Error> explicit_velocities(const HybridMesh& mesh, double time_step, double speed_limit,
+                                           const NodeArrays& nodes);
   std::optional<Error> implicit_velocities(const HybridMesh& mesh, double time_step, double speed_limit,
                                            const Obstacles& obstacles);
   void set_up_system(const HybridMesh& mesh, double time_step);
@@ -185,7 +193,12 @@ class Simulation {
   std::vector<PaddedVector> external_forces_;  ///< empty while none is set
   std::vector<PaddedVector> air_forces_;       ///< work space of `step`
   std::vector<PaddedVector> positions_;        ///< work space of `step`
+  std::vector<PaddedVector> next_positions_;   ///< work space of `step`; empty before the first explicit one
   std::vector<PaddedVector> forces_;           ///< work space of `step`
+  /// Work space of `step` for nodes with springs in diagonals: x, y and z, each in an array of its own, of
+  /// positions, next positions, velocities and next velocities.
+  std::vector<double> columns_;
+  bool columns_swapped_ = false;  ///< the next ones stand first
 
   SpringArrays springs_;             ///< per spring of the mesh, padded to a multiple of 4 with free entries
   std::vector<SpringPlace> places_;  ///< per entry of `springs_`

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "simulation/diagonals.hpp"
+
 namespace cut {
 namespace {
 
@@ -39,8 +41,7 @@ bool replace_by_velocities(const VelocityUpdate& update, std::span<const double>
                            const PaddedVector* velocities, PaddedVector* forces) {
   bool sound = true;
   const auto next = [&](double force, double inverse, double velocity, double acceleration) {
-    const double a = force * inverse + (acceleration - update.drag * velocity);
-    const double result = inverse > 0 ? velocity + a * update.time_step : velocity;
+    const double result = update.next(force, inverse, velocity, acceleration);
     sound &= std::abs(result) <= update.speed_limit;
     return result;
   };
@@ -55,19 +56,51 @@ bool replace_by_velocities(const VelocityUpdate& update, std::span<const double>
   return sound;
 }
 
-void move(double time_step, std::span<PaddedVector> positions, const PaddedVector* velocities) {
+void move(double time_step, std::span<const PaddedVector> positions, const PaddedVector* velocities,
+          PaddedVector* moved) {
   for (std::size_t n = 0; n < positions.size(); ++n) {
-    positions[n].x += velocities[n].x * time_step;
-    positions[n].y += velocities[n].y * time_step;
-    positions[n].z += velocities[n].z * time_step;
+    moved[n].x = positions[n].x + velocities[n].x * time_step;
+    moved[n].y = positions[n].y + velocities[n].y * time_step;
+    moved[n].z = positions[n].z + velocities[n].z * time_step;
   }
+}
+
+bool advance_nodes(std::span<const std::uint32_t> which, const VelocityUpdate& update,
+                   const NodeArrays& nodes) {
+  bool sound = true;
+  for (const std::uint32_t n : which) {
+    sound &=
+        replace_by_velocities(update, {nodes.inverse_mass + n, 1}, nodes.velocities + n, nodes.forces + n);
+    if (nodes.moves)
+      move(update.time_step, {nodes.positions + n, 1},
+           (update.old_first ? nodes.velocities : nodes.forces) + n, nodes.next_positions + n);
+  }
+  return sound;
+}
+
+void to_columns(const PaddedVector* vectors, std::size_t first, std::size_t last, const ColumnArrays& to) {
+  for (std::size_t n = first; n < last; ++n) {
+    to[0][n] = vectors[n].x;
+    to[1][n] = vectors[n].y;
+    to[2][n] = vectors[n].z;
+  }
+}
+
+void from_columns(const ColumnArrays& columns, std::size_t first, std::size_t last, PaddedVector* to) {
+  for (std::size_t n = first; n < last; ++n) to[n] = {columns[0][n], columns[1][n], columns[2][n], 0};
 }
 
 }  // namespace
 
 const Kernels& portable_kernels() {
-  static constexpr Kernels kernels{add_spring_forces<true>, add_spring_forces<false>, replace_by_velocities,
-                                   move};
+  static constexpr Kernels kernels{add_spring_forces<true>,
+                                   add_spring_forces<false>,
+                                   replace_by_velocities,
+                                   move,
+                                   advance_nodes,
+                                   advance_block_portable,
+                                   to_columns,
+                                   from_columns};
   return kernels;
 }
 

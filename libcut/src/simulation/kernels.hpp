@@ -1,11 +1,13 @@
 /// @file
-/// The three loops of one step of the simulation (§3.1), each in a portable version and in one for processors
+/// The loops of one step of the simulation (§3.1), each in a portable version and in one for processors
 /// with AVX2. Both give the same bits: every sum has one fixed order, (x + y) + z, and products are never
 /// fused with sums.
 #pragma once
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "cut/simulation.hpp"
 
@@ -17,6 +19,37 @@ struct VelocityUpdate {
   PaddedVector acceleration;  ///< of every free node: gravity and wind
   double drag;                ///< acceleration against the velocity, per speed [1/s]
   double speed_limit;         ///< for the amount of each component
+  bool old_first = false;     ///< nodes move on with their old velocity
+
+  [[nodiscard]] double next(double force, double inverse_mass, double velocity, double acceleration_) const {
+    const double a = force * inverse_mass + (acceleration_ - drag * velocity);
+    return inverse_mass > 0 ? velocity + a * time_step : velocity;
+  }
+};
+
+/// x, y and z of nodes in an array each.
+using ColumnArrays = std::array<double*, 3>;
+
+/// Arrays of all nodes; columns of the uncut ones.
+struct NodeArrays {
+  PaddedVector* positions;
+  PaddedVector* velocities;
+  PaddedVector* forces;
+  PaddedVector* next_positions;
+  const double* inverse_mass;
+  ColumnArrays position_columns, velocity_columns, next_position_columns, next_velocity_columns;
+  bool moves;  ///< whether next positions are wanted; if so, columns of both
+  /// Whether what is next is wanted in padded vectors. For springs that are not in diagonals, and for copies.
+  bool padded;
+
+  /// What is next becomes what is.
+  void step_on() {
+    std::swap(velocities, forces);
+    if (!moves) return;
+    std::swap(positions, next_positions);
+    std::swap(position_columns, next_position_columns);
+    std::swap(velocity_columns, next_velocity_columns);
+  }
 };
 
 /// Nodes closer than the root of this are at the same place: the direction of the spring is undefined, and no
@@ -35,8 +68,21 @@ struct Kernels {
   /// within the speed limit, which none that is NaN or infinite is.
   bool (*replace_by_velocities)(const VelocityUpdate& update, std::span<const double> inverse_mass,
                                 const PaddedVector* velocities, PaddedVector* forces);
-  /// Equation 6, with the old or the new velocities.
-  void (*move)(double time_step, std::span<PaddedVector> positions, const PaddedVector* velocities);
+  /// Equation 6: from `positions` to `moved`, which may be the same.
+  void (*move)(double time_step, std::span<const PaddedVector> positions, const PaddedVector* velocities,
+               PaddedVector* moved);
+  /// Equations 4 to 6 for single nodes. Returns what `replace_by_velocities` does.
+  bool (*advance_nodes)(std::span<const std::uint32_t> which, const VelocityUpdate& update,
+                        const NodeArrays& nodes);
+  /// All equations for the nodes of a block with diagonals, but not for copies. Without an update adds the
+  /// forces of springs in diagonals to `forces`. Returns what `replace_by_velocities` does.
+  /// @param begun  whether there is something in `forces` to begin with
+  bool (*advance_block)(const SpringBlock& block, const VelocityUpdate* update, bool begun,
+                        const NodeArrays& nodes);
+  /// Takes vectors of nodes apart, and puts them together.
+  void (*to_columns)(const PaddedVector* vectors, std::size_t first, std::size_t last,
+                     const ColumnArrays& to);
+  void (*from_columns)(const ColumnArrays& columns, std::size_t first, std::size_t last, PaddedVector* to);
 };
 
 /// Plain C++.

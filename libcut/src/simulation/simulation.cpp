@@ -39,7 +39,6 @@ Result<Simulation> Simulation::build(const HybridMesh& mesh, const Material& mat
     s.diagonal_ = length(high - low);
   }
   s.resize(mesh);
-  s.blocks_.reset(mesh.buffers.nodes.size());
   for (std::size_t i = 0; i < mesh.buffers.springs.size(); ++i) s.set_spring(SpringId{i}, mesh);
   if (material.mode == MaterialMode::conserving) {
     for (std::size_t t = 0; t < mesh.ancestors.triangles.size(); ++t) s.measure_weights(mesh, AncestorId{t});
@@ -51,6 +50,8 @@ Result<Simulation> Simulation::build(const HybridMesh& mesh, const Material& mat
     s.reserve_bending(mesh.ancestors.edges.size());
     for (std::size_t e = 0; e < mesh.ancestors.edges.size(); ++e) s.update_bending(mesh, AncestorEdgeId{e});
   }
+  const std::size_t nodes = mesh.buffers.nodes.size();
+  s.blocks_.reset(nodes, frequent_offsets(s.spring_lists(), nodes));
   s.settle_springs();
   s.sound_.resize(s.blocks_.blocks().size());
   return s;

@@ -9,6 +9,7 @@
 #include "cut/simulation.hpp"
 #include "mesh/vector3.hpp"
 #include "simulation/contact.hpp"
+#include "simulation/diagonals.hpp"
 #include "simulation/drag.hpp"
 #include "simulation/kernels.hpp"
 #include "simulation/padded.hpp"
@@ -75,15 +76,6 @@ std::optional<Error> Simulation::step(HybridMesh& mesh, double time_step, std::s
   if (auto error = fault_of(surroundings, time_step, way)) return error;
   if (mesh.topology_version != topology_version_ || mesh.positions.size() != mass_.size())
     return Error{Error::Kind::bad_parameter, "the mesh has cuts that the simulation was not told of", 0};
-  // Loops over nodes alone run over nodes in their order, a run for each block.
-  const std::size_t runs = blocks_.blocks().size(), run = (positions_.size() + runs - 1) / runs;
-  const auto for_each_run = [&](const auto& body) {
-    executor.for_each(runs, [&](std::size_t b) {
-      const std::size_t first = std::min(positions_.size(), b * run);
-      const std::size_t last = std::min(positions_.size(), first + run);
-      if (first < last) body(first, last);
-    });
-  };
   for_each_run([&](std::size_t first, std::size_t last) {
     for (std::size_t n = first; n < last; ++n) positions_[n] = padded(mesh.positions[n]);
   });
@@ -99,22 +91,34 @@ std::optional<Error> Simulation::step(HybridMesh& mesh, double time_step, std::s
   }
   std::optional<Error> error;
   std::size_t done = 0;
+  // An explicit step of a cloth that meets nothing is one pass over the blocks.
+  const bool one_pass = surroundings.integrator != Integrator::implicit_euler && obstacles.empty();
+  NodeArrays nodes = node_arrays(one_pass);
+  if (one_pass) to_columns(nodes);
   for (; done < count; ++done) {
     error = surroundings.integrator == Integrator::implicit_euler
                 ? implicit_velocities(mesh, time_step, way / time_step, obstacles)
-                : explicit_velocities(mesh, time_step, way / time_step);
+                : explicit_velocities(mesh, time_step, way / time_step, nodes);
     if (error) break;
-    if (!forward && !obstacles.empty()) keep_out(obstacles, forces_);
-    const PaddedVector* velocities = forward ? velocities_.data() : forces_.data();
-    for_each_run([&](std::size_t first, std::size_t last) {
-      best_kernels().move(time_step, {&positions_[first], last - first}, velocities + first);
-    });
+    if (one_pass) {
+      positions_.swap(next_positions_);
+      columns_swapped_ = !columns_swapped_;
+    } else {
+      if (!forward && !obstacles.empty()) keep_out(obstacles, forces_);
+      const PaddedVector* velocities = forward ? velocities_.data() : forces_.data();
+      for_each_run([&](std::size_t first, std::size_t last) {
+        best_kernels().move(time_step, {&positions_[first], last - first}, velocities + first,
+                            &positions_[first]);
+      });
+    }
     velocities_.swap(forces_);
+    nodes.step_on();
     move_obstacles(surroundings, time_step);
     if (forward && !obstacles.empty()) keep_out(obstacles, velocities_);
     ++updates_;
   }
   if (done == 0) return error;
+  if (!nodes.padded) from_columns(nodes);
   for_each_run([&](std::size_t first, std::size_t last) {
     for (std::size_t n = first; n < last; ++n) mesh.positions[n] = plain(positions_[n]);
   });
@@ -137,47 +141,110 @@ void Simulation::find_air_forces(const HybridMesh& mesh) {
                           });
 }
 
+/// Loops over nodes alone run over nodes in their order, a run for each block.
+void Simulation::for_each_run(const std::function<void(std::size_t first, std::size_t last)>& body) const {
+  const std::size_t runs = blocks_.blocks().size(), run = (positions_.size() + runs - 1) / runs;
+  executor.for_each(runs, [&](std::size_t b) {
+    const std::size_t first = std::min(positions_.size(), b * run);
+    const std::size_t last = std::min(positions_.size(), first + run);
+    if (first < last) body(first, last);
+  });
+}
+
+NodeArrays Simulation::node_arrays(bool moves) {
+  NodeArrays nodes{};
+  nodes.moves = moves;
+  nodes.padded = !moves || surroundings.normal_drag > 0 || !blocks_.all_in_diagonals();
+  if (moves) next_positions_.resize(positions_.size());
+  nodes.positions = positions_.data();
+  nodes.velocities = velocities_.data();
+  nodes.inverse_mass = inverse_mass_.data();
+  nodes.forces = forces_.data();
+  nodes.next_positions = next_positions_.data();
+  if (blocks_.has_diagonals()) {
+    const SpringBlock& block = blocks_.blocks()[0];
+    ColumnSpace space(columns_, 4, block.uncut_nodes + reach_of(block));
+    nodes.position_columns = space.take();
+    nodes.next_position_columns = space.take();
+    nodes.velocity_columns = space.take();
+    nodes.next_velocity_columns = space.take();
+    if (columns_swapped_) {
+      std::swap(nodes.position_columns, nodes.next_position_columns);
+      std::swap(nodes.velocity_columns, nodes.next_velocity_columns);
+    }
+  }
+  return nodes;
+}
+
+/// Copies positions and velocities to columns, if blocks have diagonals.
+void Simulation::to_columns(const NodeArrays& nodes) const {
+  if (!blocks_.has_diagonals()) return;
+  const std::size_t uncut = blocks_.blocks()[0].uncut_nodes;
+  for_each_run([&](std::size_t first, std::size_t last) {
+    best_kernels().to_columns(nodes.positions, first, std::min(last, uncut), nodes.position_columns);
+    best_kernels().to_columns(nodes.velocities, first, std::min(last, uncut), nodes.velocity_columns);
+  });
+}
+
+/// Copies them back, when steps have left them in columns alone.
+void Simulation::from_columns(const NodeArrays& nodes) const {
+  for_each_run([&](std::size_t first, std::size_t last) {
+    best_kernels().from_columns(nodes.position_columns, first, last, nodes.positions);
+    best_kernels().from_columns(nodes.velocity_columns, first, last, nodes.velocities);
+  });
+}
+
 /// Leaves in `forces_` the next velocities, or without an update what acts on each node but gravity and
-/// air_drag, which go with the mass; one block of nodes after the other or at the same time. Returns whether
-/// all velocities are sound.
-bool Simulation::go_through_blocks(const HybridMesh& mesh, const VelocityUpdate* update) {
+/// air_drag, which go with the mass; one block of nodes after the other or at the same time.
+/// When nodes move as well, starts from columns where there are any, and leaves the next ones there; in
+/// padded vectors only where those are needed. Returns whether all velocities are sound.
+bool Simulation::go_through_blocks(const HybridMesh& mesh, const VelocityUpdate* update,
+                                   const NodeArrays& nodes) {
   const bool air = surroundings.normal_drag > 0;
   if (air) find_air_forces(mesh);
+  if (!nodes.moves) to_columns(nodes);
   const std::vector<PaddedVector>& given = air ? air_forces_ : external_forces_;
   const Kernels& kernels = best_kernels();
   const std::vector<SpringBlock>& blocks = blocks_.blocks();
   executor.for_each(blocks.size(), [&](std::size_t b) {
     const SpringBlock& block = blocks[b];
-    const auto for_each_part = [&](const auto& visit) {
-      visit(block.first, block.last - block.first);
-      for (const std::uint32_t copy : block.copies) visit(copy, 1u);
-    };
-    for_each_part([&](std::uint32_t first, std::uint32_t count) {
-      if (given.empty())
-        std::fill_n(forces_.begin() + first, count, PaddedVector{});
-      else
-        std::copy_n(given.begin() + first, count, forces_.begin() + first);
-    });
-    kernels.add_spring_forces(block.inner, positions_.data(), velocities_.data(), forces_.data());
-    kernels.add_forces_at_first_node(block.outer, positions_.data(), velocities_.data(), forces_.data());
+    const bool begun =
+        !given.empty() || !block.inner.nodes.empty() || !block.outer.nodes.empty() || block.diagonals.empty();
+    if (begun && given.empty())
+      std::fill(nodes.forces + block.first, nodes.forces + block.last, PaddedVector{});
+    else if (begun)
+      std::copy(given.data() + block.first, given.data() + block.last, nodes.forces + block.first);
+    for (const std::uint32_t copy : block.copies)
+      nodes.forces[copy] = given.empty() ? PaddedVector{} : given[copy];
+    kernels.add_spring_forces(block.inner, nodes.positions, nodes.velocities, nodes.forces);
+    kernels.add_forces_at_first_node(block.outer, nodes.positions, nodes.velocities, nodes.forces);
     bool sound = true;
-    if (update)
-      for_each_part([&](std::uint32_t first, std::uint32_t count) {
-        sound &= kernels.replace_by_velocities(*update, {&inverse_mass_[first], count}, &velocities_[first],
-                                               &forces_[first]);
-      });
+    if (!block.diagonals.empty()) {
+      sound = kernels.advance_block(block, update, begun, nodes);
+    } else if (update) {
+      const std::size_t first = block.first, count = block.last - first;
+      sound = kernels.replace_by_velocities(*update, {nodes.inverse_mass + first, count},
+                                            nodes.velocities + first, nodes.forces + first);
+      if (nodes.moves)
+        kernels.move(update->time_step, {nodes.positions + first, count},
+                     (update->old_first ? nodes.velocities : nodes.forces) + first,
+                     nodes.next_positions + first);
+    }
+    if (update) sound &= kernels.advance_nodes(block.copies, *update, nodes);
     sound_[b] = sound ? 1 : 0;
   });
   return std::find(sound_.begin(), sound_.end(), 0) == sound_.end();
 }
 
-/// Leaves the next velocities in `forces_`.
+/// Finds the next velocities, and moves nodes on as `go_through_blocks` says.
 std::optional<Error> Simulation::explicit_velocities(const HybridMesh& mesh, double time_step,
-                                                     double speed_limit) {
+                                                     double speed_limit, const NodeArrays& nodes) {
   const double drag = surroundings.air_drag / material_.density;
   const VelocityUpdate update{time_step, padded(surroundings.gravity + drag * surroundings.wind), drag,
-                              speed_limit};
-  if (go_through_blocks(mesh, &update)) return std::nullopt;
+                              speed_limit, surroundings.integrator == Integrator::forward_euler};
+  if (go_through_blocks(mesh, &update, nodes)) return std::nullopt;
+  if (!nodes.padded)
+    best_kernels().from_columns(nodes.next_velocity_columns, 0, forces_.size(), forces_.data());
   return unsound_velocity(speed_limit);
 }
 

@@ -1,0 +1,85 @@
+// Springs in diagonals, in plain C++.
+#include "simulation/diagonals.hpp"
+
+#include <cmath>
+
+namespace cut {
+namespace {
+
+struct Loops {
+  /// Of the springs that start at nodes [from, to). @pre from and to are multiples of 4
+  static void find_forces(const SpringDiagonal& d, std::size_t from, std::size_t to, const NodeArrays& nodes,
+                          std::ptrdiff_t shift, const ColumnArrays& forces) {
+    const ColumnArrays &p = nodes.position_columns, &v = nodes.velocity_columns;
+    for (std::size_t a = from; a < to; ++a) {
+      const std::size_t b = a + d.offset, entry = a - d.first;
+      const double dx = p[0][b] - p[0][a], dy = p[1][b] - p[1][a], dz = p[2][b] - p[2][a];
+      const double ux = v[0][b] - v[0][a], uy = v[1][b] - v[1][a], uz = v[2][b] - v[2][a];
+      const double squared = (dx * dx + dy * dy) + dz * dz;
+      const double length = std::sqrt(squared);
+      const double inverse_squared = squared >= smallest_squared_length ? 1 / squared : 0;
+      const double stretch = d.stiffness[entry] * (length - d.rest_length[entry]);
+      const double rate = d.damping[entry] * ((ux * dx + uy * dy) + uz * dz);
+      const double scale = (stretch * length + rate) * inverse_squared;
+      const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(a) + shift;
+      forces[0][i] = dx * scale;
+      forces[1][i] = dy * scale;
+      forces[2][i] = dz * scale;
+    }
+  }
+
+  /// What springs of one diagonal make of the sums. @pre from and to are at multiples of 4
+  static void sum_up(bool first, std::size_t offset, std::ptrdiff_t from, std::ptrdiff_t to,
+                     const ColumnArrays& forces, const ColumnArrays& sums) {
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::ptrdiff_t i = from; i < to; ++i) {
+        const double force = forces[k][i] - forces[k][i - static_cast<std::ptrdiff_t>(offset)];
+        sums[k][i] = first ? force : sums[k][i] + force;
+      }
+  }
+
+  /// Equations 4 to 6. @pre from is a multiple of 4
+  static bool finish(const VelocityUpdate* update, bool begun, std::size_t from, std::size_t to,
+                     const ColumnArrays& sums, std::ptrdiff_t shift, const NodeArrays& nodes) {
+    bool sound = true;
+    for (std::size_t n = from; n < to; ++n) {
+      const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(n) + shift;
+      const auto component = [&](std::size_t k, double PaddedVector::* c) {
+        double& force = nodes.forces[n].*c;
+        const double sum = begun ? force + sums[k][i] : sums[k][i];
+        if (update == nullptr) {
+          force = sum;
+          return;
+        }
+        const double v = nodes.velocity_columns[k][n];
+        const double next = update->next(sum, nodes.inverse_mass[n], v, update->acceleration.*c);
+        sound &= std::abs(next) <= update->speed_limit;
+        if (nodes.padded) force = next;
+        if (!nodes.moves) return;
+        const double moved =
+            nodes.position_columns[k][n] + (update->old_first ? v : next) * update->time_step;
+        nodes.next_velocity_columns[k][n] = next;
+        nodes.next_position_columns[k][n] = moved;
+        if (nodes.padded) nodes.next_positions[n].*c = moved;
+      };
+      component(0, &PaddedVector::x);
+      component(1, &PaddedVector::y);
+      component(2, &PaddedVector::z);
+    }
+    return sound;
+  }
+};
+
+}  // namespace
+
+bool finish_portable(const VelocityUpdate* update, bool begun, std::size_t from, std::size_t to,
+                     const ColumnArrays& sums, std::ptrdiff_t shift, const NodeArrays& nodes) {
+  return Loops::finish(update, begun, from, to, sums, shift, nodes);
+}
+
+bool advance_block_portable(const SpringBlock& block, const VelocityUpdate* update, bool begun,
+                            const NodeArrays& nodes) {
+  return advance_block<Loops>(block, update, begun, nodes);
+}
+
+}  // namespace cut
