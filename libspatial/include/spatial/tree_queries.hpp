@@ -25,6 +25,9 @@
 
 namespace spatial {
 
+template <class Value, class T, std::size_t D, class BoxOf, class Equal, class Allocator>
+class BoundingBoxTernaryTree;
+
 /// The base of BoundingBoxTernaryTree, where its parameters are explained. Any number of threads may use
 /// these functions at the same time.
 template <class Value, class T, std::size_t D, class BoxOf, class Equal, class Allocator>
@@ -35,6 +38,9 @@ class TreeQueries {
   using Leaf = typename Core::LeafType;
 
  public:
+  TreeQueries(const TreeQueries&) = delete;
+  TreeQueries& operator=(const TreeQueries&) = delete;
+
   using value_type = Value;
   using size_type = std::size_t;
   using difference_type = std::ptrdiff_t;
@@ -199,19 +205,14 @@ class TreeQueries {
  protected:
   explicit TreeQueries(const Allocator& allocator, BoxOf box_of = {}, Equal equal = {})
       : core_(allocator), box_of_(std::move(box_of)), equal_(std::move(equal)) {}
-  TreeQueries(const TreeQueries&) = delete;
-  TreeQueries& operator=(const TreeQueries&) = delete;
   ~TreeQueries() = default;
 
   [[nodiscard]] Handle handle_of(std::uint32_t slot) const { return {slot, core_.slot(slot).generation}; }
 
-  Core core_;
-  [[no_unique_address]] BoxOf box_of_{};
-  [[no_unique_address]] Equal equal_{};
-
  private:
   template <class V2, class T2, std::size_t D2, class B2, class E2, class A2>
   friend class TreeQueries;
+  friend class BoundingBoxTernaryTree<Value, T, D, BoxOf, Equal, Allocator>;
 
   template <class Visit>
   void find_equal(const Value& value, Visit&& visit) const {
@@ -252,6 +253,10 @@ class TreeQueries {
     return QueryRange<Value, Core, Cursor>(core_,
                                            Cursor(core_, metric, filter, detail::count_limit(predicate)));
   }
+
+  Core core_;
+  [[no_unique_address]] BoxOf box_of_{};
+  [[no_unique_address]] Equal equal_{};
 };
 
 }  // namespace spatial
