@@ -33,16 +33,18 @@ ArrayChanges<T> inverse_of(const ArrayChanges<T>& changes, const std::vector<T>&
 
 }  // namespace
 
-Changes publish(const HybridMesh& mesh, ChangeLog&& log) {
+Changes publish(const HybridMesh& mesh, ChangeLog&& log, const Executor& executor) {
   Changes changes;
   changes.node_copies = std::move(log.node_copies);
   changes.triangle_copies = std::move(log.triangle_copies);
   changes.spring_copies = std::move(log.spring_copies);
-  changes.nodes = entries(log.nodes, mesh.buffers.nodes);
-  changes.triangles = entries(log.triangles, mesh.buffers.triangles);
-  changes.springs = entries(log.springs, mesh.buffers.springs);
-  changes.render_vertices = entries(log.render_vertices, mesh.buffers.render_vertices);
-  changes.render_triangles = entries(log.render_triangles, mesh.buffers.render_triangles);
+  executor.for_each(5, [&](std::size_t which) {
+    if (which == 0) changes.render_triangles = entries(log.render_triangles, mesh.buffers.render_triangles);
+    if (which == 1) changes.render_vertices = entries(log.render_vertices, mesh.buffers.render_vertices);
+    if (which == 2) changes.springs = entries(log.springs, mesh.buffers.springs);
+    if (which == 3) changes.triangles = entries(log.triangles, mesh.buffers.triangles);
+    if (which == 4) changes.nodes = entries(log.nodes, mesh.buffers.nodes);
+  });
   for (const auto& entry : changes.triangles.entries) {
     if (!entry.value.ancestor.valid()) continue;
     const auto& edges = mesh.ancestors.triangles[entry.value.ancestor.index()].edges;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cut/changes.hpp"
+#include "cut/executor.hpp"
 #include "cut/hybrid_mesh.hpp"
 
 namespace cut {
@@ -25,6 +26,6 @@ struct ChangeLog {
 
 /// The last step (docs/cutting.md, "publish"): the change set of all noted entries with their values now.
 /// O(changes · log).
-Changes publish(const HybridMesh& mesh, ChangeLog&& log);
+Changes publish(const HybridMesh& mesh, ChangeLog&& log, const Executor& executor);
 
 }  // namespace cut

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <tuple>
-#include <unordered_map>
-#include <unordered_set>
 #include <utility>
 
 #include "cutting/edge_state.hpp"
@@ -27,44 +25,138 @@ struct Angle {
   std::array<Index, 2> section{};
 };
 
+/// A set of numbers that asks for memory once in a while only.
+class NumberSet {
+ public:
+  void reserve(std::size_t numbers) {
+    std::size_t size = 64;
+    while (size < 2 * numbers) size *= 2;
+    if (size > slots_.size()) grow(size);
+  }
+  [[nodiscard]] bool contains(Index number) const {
+    return !slots_.empty() && slots_[slot(number)] == number;
+  }
+  void insert(Index number) {
+    if (2 * (count_ + 1) > slots_.size()) grow(std::max<std::size_t>(64, 2 * slots_.size()));
+    Index& place = slots_[slot(number)];
+    if (place != number) ++count_;
+    place = number;
+  }
+
+ private:
+  static constexpr Index free = HybridMesh::none;
+  /// Where it is, or would be.
+  [[nodiscard]] std::size_t slot(Index number) const {
+    std::size_t i = (number * std::size_t{0x9e3779b1}) & (slots_.size() - 1);
+    while (slots_[i] != number && slots_[i] != free) i = (i + 1) & (slots_.size() - 1);
+    return i;
+  }
+  void grow(std::size_t size) {
+    std::vector<Index> old(size, free);
+    old.swap(slots_);
+    for (const Index number : old)
+      if (number != free) slots_[slot(number)] = number;
+  }
+  std::vector<Index> slots_;
+  std::size_t count_ = 0;
+};
+
 class VertexCopier {
  public:
-  VertexCopier(HybridMesh& mesh, ChangeLog& log) : mesh_(mesh), log_(log) {}
+  VertexCopier(HybridMesh& mesh, ChangeLog& log, const Executor& executor)
+      : mesh_(mesh), log_(log), executor_(executor) {}
 
   void run(std::span<const TriangleWork> works) {
-    for (const TriangleWork& work : works) inherit_vertices(work);
+    executor_.for_each(works.size(), [&](std::size_t i) { inherit_vertices(works[i]); });
     std::vector<AncestorNodeId> physics_nodes;
-    std::vector<std::pair<AncestorEdgeId, std::int32_t>> boundary_nodes;
-    for (const TriangleWork& work : works) {
-      const Ancestor& ancestor = mesh_.ancestors.triangles[work.ancestor.index()];
-      for (std::size_t i = 0; i < 3; ++i) {
-        physics_nodes.push_back(ancestor.nodes[i]);
-        if (const EdgeState* state = mesh_.edge_state(ancestor.edges[i]))
-          for (const BoundaryNode& n : state->nodes) boundary_nodes.emplace_back(ancestor.edges[i], n.t);
-      }
-      const Index first_inner = mesh_.arrangement(work.ancestor)->first_inner_node();
-      for (const Angle& angle : angles(work.ancestor))
-        if (angle.node >= first_inner) assign({&angle, 1});
+    std::vector<AncestorEdgeId> edges;
+    for (std::size_t i = 0; i < works.size(); ++i) {
+      for (const RenderPolygon& polygon : works[i].before.polygons)
+        for (const PolygonCorner& c : polygon.corners) released_.push_back(c.vertex);
+      const Ancestor& ancestor = mesh_.ancestors.triangles[works[i].ancestor.index()];
+      physics_nodes.insert(physics_nodes.end(), ancestor.nodes.begin(), ancestor.nodes.end());
+      for (const AncestorEdgeId edge : ancestor.edges)
+        if (mesh_.edge_state(edge)) edges.push_back(edge);
     }
     lattice::sort_unique(physics_nodes);
-    lattice::sort_unique(boundary_nodes);
-    std::vector<Angle> group;
-    for (const auto& [edge, t] : boundary_nodes) {
-      group.clear();
-      for (const AncestorId a : mesh_.ancestors.edges[edge.index()].triangles)
-        if (a.valid()) append_angles(a, boundary_node_index(a, edge, t), group);
-      assign(group);
+    lattice::sort_unique(edges);
+    find_angles(physics_nodes);
+    claimed_.reserve(2 * released_.size());
+    for (const TriangleWork& work : works) {
+      const Index first_inner = mesh_.arrangement(work.ancestor)->first_inner_node();
+      for (const Angle& angle : angles(work.ancestor))
+        if (angle.node >= first_inner) assign({{&angle, 1}, {&only_, 1}});
     }
-    for (const AncestorNodeId node : physics_nodes) {
-      group.clear();
-      for (const AncestorId a : mesh_.ancestors.triangles_around(node))
-        append_angles(a, static_cast<Index>(mesh_.ancestors.local_node(a, node)), group);
-      assign(group);
-    }
+    // In groups of nodes, since one node alone is hardly worth a turn.
+    assign_all(edges.size(), [&](std::size_t i, Groups& groups) {
+      for (const BoundaryNode& n : mesh_.edge_state(edges[i])->nodes) {
+        for (const AncestorId a : mesh_.ancestors.edges[edges[i].index()].triangles)
+          if (a.valid()) append_angles(a, boundary_node_index(a, edges[i], n.t), groups.angles);
+        end_group(groups);
+      }
+    });
+    assign_all(physics_nodes.size(), [&](std::size_t i, Groups& groups) {
+      for (const AncestorId a : mesh_.ancestors.triangles_around(physics_nodes[i]))
+        append_angles(a, static_cast<Index>(mesh_.ancestors.local_node(a, physics_nodes[i])), groups.angles);
+      end_group(groups);
+    });
     free_unclaimed();
   }
 
  private:
+  /// Angles at some nodes, one node after the other, and which of them are connected.
+  struct Groups {
+    std::vector<Angle> angles;
+    std::vector<Index> roots;  ///< per angle: the first angle of its component, counted within the node
+    std::vector<std::size_t> ends;
+    lattice::Components components{0};
+    std::vector<std::tuple<AncestorEdgeId, Index, Index>> sides;
+  };
+  struct Group {
+    std::span<const Angle> angles;
+    std::span<const Index> roots;
+  };
+
+  /// Collects angles side by side, and gives them their vertices in order.
+  template <class Collect>
+  void assign_all(std::size_t count, const Collect& collect) {
+    constexpr std::size_t per_turn = 64;
+    std::vector<Groups> parts((count + per_turn - 1) / per_turn);
+    executor_.for_each(parts.size(), [&](std::size_t part) {
+      for (std::size_t i = part * per_turn; i < std::min(count, (part + 1) * per_turn); ++i)
+        collect(i, parts[part]);
+    });
+    for (const Groups& part : parts) {
+      std::size_t begin = 0;
+      for (const std::size_t end : part.ends) {
+        assign({{&part.angles[begin], end - begin}, {&part.roots[begin], end - begin}});
+        begin = end;
+      }
+    }
+  }
+
+  /// Finds the components of the angles since the last end.
+  void end_group(Groups& groups) const {
+    const std::size_t begin = groups.ends.empty() ? 0 : groups.ends.back();
+    const std::span<const Angle> group{groups.angles.data() + begin, groups.angles.size() - begin};
+    if (group.empty()) return;
+    groups.components.reset(group.size());
+    groups.sides.clear();
+    for (Index i = 0; i < group.size(); ++i)
+      for (std::size_t which = 0; which < 2; ++which)
+        if (group[i].edge[which].valid())
+          groups.sides.emplace_back(group[i].edge[which], group[i].section[which], i);
+    std::sort(groups.sides.begin(), groups.sides.end());
+    for (std::size_t k = 0; k + 1 < groups.sides.size(); ++k) {
+      const auto& [edge, section, i] = groups.sides[k];
+      const auto& [next_edge, next_section, j] = groups.sides[k + 1];
+      if (edge == next_edge && section == next_section && !is_cut(mesh_.edge_state(edge), section))
+        groups.components.join(i, j);
+    }
+    for (Index i = 0; i < group.size(); ++i) groups.roots.push_back(groups.components.root(i));
+    groups.ends.push_back(groups.angles.size());
+  }
+
   RenderVertexId& vertex(const Angle& a) {
     const Index index = mesh_.arrangement_of[a.ancestor.index()];
     return index == HybridMesh::none ? mesh_.buffers.render_triangles[a.ancestor.index()].vertices[a.corner]
@@ -82,10 +174,8 @@ class VertexCopier {
     };
     std::vector<OldCorner> old;
     for (const RenderPolygon& polygon : work.before.polygons)
-      for (const PolygonCorner& c : polygon.corners) {
+      for (const PolygonCorner& c : polygon.corners)
         old.push_back({work.before.nodes[c.node].point, polygon.triangle, c.vertex});
-        released_.push_back(c.vertex);
-      }
     lattice::sort_unique(old);
     Arrangement& now = mesh_.arrangements[mesh_.arrangement_of[work.ancestor.index()]];
     for (RenderPolygon& polygon : now.polygons) {
@@ -120,11 +210,24 @@ class VertexCopier {
     return arrangement.edge_node(i, mesh_.ancestors.reversed(a, i) ? count - k : k + 1);
   }
 
+  /// Those of all cut triangles around these nodes.
+  void find_angles(const std::vector<AncestorNodeId>& physics_nodes) {
+    for (const AncestorNodeId node : physics_nodes)
+      for (const AncestorId a : mesh_.ancestors.triangles_around(node))
+        if (mesh_.arrangement(a) != nullptr) with_angles_.push_back(a);
+    lattice::sort_unique(with_angles_);
+    angles_.resize(with_angles_.size());
+    executor_.for_each(with_angles_.size(), [&](std::size_t i) { angles_[i] = angles_of(with_angles_[i]); });
+  }
+
+  [[nodiscard]] const std::vector<Angle>& angles(AncestorId a) const {
+    const auto found = std::lower_bound(with_angles_.begin(), with_angles_.end(), a);
+    return angles_[static_cast<std::size_t>(found - with_angles_.begin())];
+  }
+
   /// All angles of a cut triangle, sorted by node.
-  const std::vector<Angle>& angles(AncestorId a) {
-    const auto [entry, added] = angles_.try_emplace(a);
-    if (!added) return entry->second;
-    std::vector<Angle>& list = entry->second;
+  [[nodiscard]] std::vector<Angle> angles_of(AncestorId a) const {
+    std::vector<Angle> list;
     const Arrangement& arrangement = *mesh_.arrangement(a);
     for (Index p = 0; p < arrangement.polygons.size(); ++p) {
       const RenderPolygon& polygon = arrangement.polygons[p];
@@ -165,7 +268,7 @@ class VertexCopier {
     }
   }
 
-  void append_angles(AncestorId a, Index node, std::vector<Angle>& group) {
+  void append_angles(AncestorId a, Index node, std::vector<Angle>& group) const {
     if (mesh_.arrangement(a) == nullptr) {
       const auto& edges = mesh_.ancestors.triangles[a.index()].edges;
       group.push_back({a, node, 0, node, {edges[last_corner(node)], edges[node]}, {}});
@@ -179,38 +282,24 @@ class VertexCopier {
   }
 
   /// Gives each component of angles at one node its vertex.
-  void assign(std::span<const Angle> group) {
-    lattice::Components& components = components_;
-    auto& sides = sides_;
-    components.reset(group.size());
-    sides.clear();
-    for (Index i = 0; i < group.size(); ++i)
-      for (std::size_t which = 0; which < 2; ++which)
-        if (group[i].edge[which].valid())
-          sides.emplace_back(group[i].edge[which], group[i].section[which], i);
-    std::sort(sides.begin(), sides.end());
-    for (std::size_t k = 0; k + 1 < sides.size(); ++k) {
-      const auto& [edge, section, i] = sides[k];
-      const auto& [next_edge, next_section, j] = sides[k + 1];
-      if (edge == next_edge && section == next_section && !is_cut(mesh_.edge_state(edge), section))
-        components.join(i, j);
-    }
-    for (Index root = 0; root < group.size(); ++root) {
-      if (components.root(root) != root) continue;
+  void assign(const Group& group) {
+    const auto size = static_cast<Index>(group.angles.size());
+    for (Index root = 0; root < size; ++root) {
+      if (group.roots[root] != root) continue;
       RenderVertexId id;
       const Angle* representative = nullptr;
-      for (Index i = root; i < group.size(); ++i) {
-        if (components.root(i) != root) continue;
-        const RenderVertexId proposed = vertex(group[i]);
+      for (Index i = root; i < size; ++i) {
+        if (group.roots[i] != root) continue;
+        const Angle& angle = group.angles[i];
+        const RenderVertexId proposed = vertex(angle);
         if (proposed.valid()) released_.push_back(proposed);
         if (!id.valid() && proposed.valid() && !claimed_.contains(proposed.value)) id = proposed;
-        if (representative == nullptr || triangle(group[i]) < triangle(*representative))
-          representative = &group[i];
+        if (representative == nullptr || triangle(angle) < triangle(*representative)) representative = &angle;
       }
       if (!id.valid()) id = allocate();
       claimed_.insert(id.value);
-      for (Index i = root; i < group.size(); ++i)
-        if (components.root(i) == root && vertex(group[i]) != id) replace_vertex(group[i], id);
+      for (Index i = root; i < size; ++i)
+        if (group.roots[i] == root && vertex(group.angles[i]) != id) replace_vertex(group.angles[i], id);
       write(id, *representative);
     }
   }
@@ -256,29 +345,30 @@ class VertexCopier {
   }
 
   void free_unclaimed() {
+    std::erase_if(released_, [&](RenderVertexId id) { return claimed_.contains(id.value); });
     lattice::sort_unique(released_);
     for (const RenderVertexId id : released_) {
-      if (claimed_.contains(id.value)) continue;
       mesh_.buffers.render_vertices[id.index()] = RenderVertex{};
       log_.render_vertices.push_back(id.value);
       mesh_.free_render_vertices.push_back(id);
     }
   }
 
+  static constexpr Index only_ = 0;  ///< the root of an angle by itself
   HybridMesh& mesh_;
   ChangeLog& log_;
-  std::unordered_map<AncestorId, std::vector<Angle>> angles_;
+  const Executor& executor_;
+  std::vector<AncestorId> with_angles_;  ///< sorted
+  std::vector<std::vector<Angle>> angles_;
   std::vector<RenderVertexId> released_;
-  std::unordered_set<Index> claimed_;
-  // Of `assign`, kept for their memory.
-  lattice::Components components_{0};
-  std::vector<std::tuple<AncestorEdgeId, Index, Index>> sides_;
+  NumberSet claimed_;
 };
 
 }  // namespace
 
-void copy_boundary_nodes(HybridMesh& mesh, std::span<const TriangleWork> works, ChangeLog& log) {
-  VertexCopier(mesh, log).run(works);
+void copy_boundary_nodes(HybridMesh& mesh, std::span<const TriangleWork> works, const Executor& executor,
+                         ChangeLog& log) {
+  VertexCopier(mesh, log, executor).run(works);
 }
 
 }  // namespace cut

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "cut/executor.hpp"
 #include "cut/hybrid_mesh.hpp"
 #include "cutting/change_log.hpp"
 #include "cutting/state.hpp"
@@ -17,6 +18,7 @@ namespace cut {
 /// @param works those whose arrangement or whose sides' sections have changed, `before` still being their old
 /// arrangement.
 ///        O(corners of these polygons and of the neighbours at their border · log)
-void copy_boundary_nodes(HybridMesh& mesh, std::span<const TriangleWork> works, ChangeLog& log);
+void copy_boundary_nodes(HybridMesh& mesh, std::span<const TriangleWork> works, const Executor& executor,
+                         ChangeLog& log);
 
 }  // namespace cut

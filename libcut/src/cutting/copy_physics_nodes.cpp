@@ -70,25 +70,35 @@ struct Copy {
   NodeId now;
 };
 
-}  // namespace
+/// What a node falls into: nothing when it stays whole.
+struct Parts {
+  std::vector<Copy> copies;
+  std::vector<Index> copy_of;  ///< per fragment around the node
+  std::vector<Index> order;    ///< of the copies that had the same node, the first keeps it
+};
 
-bool copy_physics_node(HybridMesh& mesh, AncestorNodeId node, ChangeLog& log) {
+/// Calls visit(triangle, corner, polygon, number) for the fragments around a node.
+template <class Visit>
+void for_each_fragment(const HybridMesh& mesh, AncestorNodeId node, const Visit& visit) {
+  Index number = 0;
+  for (const AncestorId t : mesh.ancestors.triangles_around(node)) {
+    const std::size_t corner = mesh.ancestors.local_node(t, node);
+    const auto count = static_cast<Index>(mesh.fragment_count(t));
+    for (Index p = 0; p < count; ++p) visit(t, corner, p, number++);
+  }
+}
+
+Parts parts_of(const HybridMesh& mesh, AncestorNodeId node) {
   const Fragments fragments(mesh, node);
   lattice::Components components = connect(mesh, node, fragments);
+  Parts parts;
   Index roots = 0;
   for (Index i = 0; i < components.size(); ++i) roots += components.root(i) == i ? 1u : 0u;
-  if (roots <= 1) return false;
-  std::vector<Copy> copies;
-  std::vector<Index> copy_of_root(fragments.first.back(), HybridMesh::none);
-  const auto for_each_fragment = [&](const auto& visit) {
-    for (std::size_t a = 0; a < fragments.around.size(); ++a) {
-      const AncestorId t = fragments.around[a];
-      const std::size_t corner = mesh.ancestors.local_node(t, node);
-      for (Index p = 0; p < fragments.first[a + 1] - fragments.first[a]; ++p)
-        visit(t, corner, p, components.root(fragments.first[a] + p));
-    }
-  };
-  for_each_fragment([&](AncestorId t, std::size_t corner, Index polygon, Index root) {
+  if (roots <= 1) return parts;
+  std::vector<Copy>& copies = parts.copies;
+  std::vector<Index> copy_of_root(components.size(), HybridMesh::none);
+  for_each_fragment(mesh, node, [&](AncestorId t, std::size_t corner, Index polygon, Index number) {
+    const Index root = components.root(number);
     if (copy_of_root[root] == HybridMesh::none) {
       copy_of_root[root] = static_cast<Index>(copies.size());
       copies.push_back(
@@ -96,18 +106,23 @@ bool copy_physics_node(HybridMesh& mesh, AncestorNodeId node, ChangeLog& log) {
     }
     Copy& copy = copies[copy_of_root[root]];
     copy.renders = copy.renders || renders_corner(mesh, t, polygon, corner);
+    parts.copy_of.push_back(copy_of_root[root]);
   });
-  // Of the components that had the same node, one keeps it.
-  std::vector<Index> order(copies.size());
-  std::iota(order.begin(), order.end(), Index{0});
-  std::sort(order.begin(), order.end(), [&](Index a, Index b) {
+  parts.order.resize(copies.size());
+  std::iota(parts.order.begin(), parts.order.end(), Index{0});
+  std::sort(parts.order.begin(), parts.order.end(), [&](Index a, Index b) {
     return std::tuple(copies[a].old, !copies[a].renders, copies[a].root) <
            std::tuple(copies[b].old, !copies[b].renders, copies[b].root);
   });
+  return parts;
+}
+
+/// Makes the copies.
+void copy_node(HybridMesh& mesh, AncestorNodeId node, Parts& parts, ChangeLog& log) {
   bool copied = false;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    Copy& copy = copies[order[i]];
-    if (i == 0 || copies[order[i - 1]].old != copy.old) {
+  for (std::size_t i = 0; i < parts.order.size(); ++i) {
+    Copy& copy = parts.copies[parts.order[i]];
+    if (i == 0 || parts.copies[parts.order[i - 1]].old != copy.old) {
       copy.now = copy.old;
       continue;
     }
@@ -118,15 +133,23 @@ bool copy_physics_node(HybridMesh& mesh, AncestorNodeId node, ChangeLog& log) {
     log.node_copies.push_back({copy.now, copy.old});
     copied = true;
   }
-  if (!copied) return false;
-  for_each_fragment([&](AncestorId t, std::size_t corner, Index polygon, Index root) {
+  if (!copied) return;
+  for_each_fragment(mesh, node, [&](AncestorId t, std::size_t corner, Index polygon, Index number) {
     const TriangleId triangle = mesh.fragment(t, polygon);
     NodeId& now = mesh.buffers.triangles[triangle.index()].nodes[corner];
-    if (now == copies[copy_of_root[root]].now) return;
-    now = copies[copy_of_root[root]].now;
+    if (now == parts.copies[parts.copy_of[number]].now) return;
+    now = parts.copies[parts.copy_of[number]].now;
     log.triangles.push_back(triangle.value);
   });
-  return true;
+}
+
+}  // namespace
+
+void copy_physics_nodes(HybridMesh& mesh, const std::vector<AncestorNodeId>& nodes, const Executor& executor,
+                        ChangeLog& log) {
+  std::vector<Parts> parts(nodes.size());
+  executor.for_each(nodes.size(), [&](std::size_t i) { parts[i] = parts_of(mesh, nodes[i]); });
+  for (std::size_t i = 0; i < nodes.size(); ++i) copy_node(mesh, nodes[i], parts[i], log);
 }
 
 void update_springs(HybridMesh& mesh, const std::vector<AncestorNodeId>& nodes, ChangeLog& log) {

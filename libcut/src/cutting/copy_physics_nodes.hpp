@@ -6,14 +6,16 @@
 #pragma once
 #include <vector>
 
+#include "cut/executor.hpp"
 #include "cut/hybrid_mesh.hpp"
 #include "cutting/change_log.hpp"
 
 namespace cut {
 
-/// Splits the copies of `node` that are no longer connected. The component that renders the node keeps its
-/// id, or else the first one. @return true when there is a new copy. O(fragments around the node).
-bool copy_physics_node(HybridMesh& mesh, AncestorNodeId node, ChangeLog& log);
+/// Splits the copies of these nodes that are no longer connected. The component that renders a node keeps its
+/// id, or else the first one. O(fragments around the nodes).
+void copy_physics_nodes(HybridMesh& mesh, const std::vector<AncestorNodeId>& nodes, const Executor& executor,
+                        ChangeLog& log);
 
 /// Brings the springs on all edges of the triangles around these nodes up to date: one for each pair of
 /// physics nodes.

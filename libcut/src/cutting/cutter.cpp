@@ -196,16 +196,16 @@ Result<Changes> Cutter::cut(HybridMesh& mesh, const TriangleMesh& cutter) {
   }
 
   lattice::sort_unique(touched);
-  for (const AncestorNodeId n : touched) copy_physics_node(mesh, n, log);
+  copy_physics_nodes(mesh, touched, executor, log);
   update_springs(mesh, touched, log);
-  copy_boundary_nodes(mesh, works, log);
+  copy_boundary_nodes(mesh, works, executor, log);
   watch.lap(timings.reconnect);
 
   triangulate_polygons(mesh, works, executor, log);
   update_vertex_nodes(mesh, log);
   mesh.state = new_state();
   memory_->broad_phase.add(mesh, log.triangle_copies);
-  Changes changes = publish(mesh, std::move(log));
+  Changes changes = publish(mesh, std::move(log), executor);
   changes.version_before = mesh.topology_version;
   changes.version_after = ++mesh.topology_version;
   watch.lap(timings.publish);
