@@ -32,7 +32,10 @@ int run(int argc, const char* const* argv) {
     print_out(text.str());
     return code;
   } catch (const CLI::ParseError& error) {
-    report_error({std::string(error.what()) + " (see snip --help)"});
+    const auto unknown = app.remaining();
+    const bool no_command = app.get_subcommands().empty() && !unknown.empty() && !unknown[0].starts_with('-');
+    report_error({(no_command ? "there is no command " + unknown[0] : std::string(error.what())) +
+                  " (see snip --help)"});
     return exit_bad_usage;
   }
 }

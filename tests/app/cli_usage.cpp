@@ -21,6 +21,13 @@ TEST_CASE("cli: help for the program and for every command, version") {
   CHECK(version.out.starts_with("snip "));
 }
 
+TEST_CASE("cli: a command that there is not is named") {
+  const TemporaryDirectory directory;
+  const auto run = cli_testing::snip(directory, "fold a.obj");
+  CHECK(run.exit_code == 2);
+  CHECK(run.err == "snip: error: there is no command fold (see snip --help)\n");
+}
+
 TEST_CASE("cli: bad usage is one line and exit code 2") {
   const TemporaryDirectory directory;
   for (const char* arguments : {"",

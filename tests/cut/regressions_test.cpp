@@ -232,3 +232,57 @@ TEST_CASE("small triangles in a coarse mesh are cut where the cutter meets them"
   REQUIRE(merged.size() == 2);
   CHECK(merged[0] == doctest::Approx(alone[0]).epsilon(0.1));
 }
+
+TEST_CASE(
+    "a polygon that touches itself in a node of its side keeps its triangles when its angles there part") {
+  // A triangle is cut out of the upper triangle, with its tip on the common edge; then a slit in the lower
+  // triangle ends at that tip. The two angles beside the tip no longer share a vertex, in a polygon that this
+  // cut does not arrange anew.
+  HybridMesh mesh =
+      *HybridMesh::build({{{-2, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, -2, 0}}, {{0, 1, 2}, {1, 0, 3}}});
+  Cutter cutter({0.1, 0.05, 0.025});
+  REQUIRE(cutter.cut(mesh, scenes::tube({{0, 0, 0}, {0.3, 0.5, 0}, {-0.3, 0.5, 0}}, {0, 0, 2})).has_value());
+  REQUIRE(validate(mesh).empty());
+  REQUIRE(cutter.cut(mesh, scenes::ribbon({{0.1, -3, 0}, {0, -0.02, 0}}, {0, 0, 2})).has_value());
+  CHECK(validate(mesh).empty());
+  REQUIRE(pieces(mesh).list.size() == 2);
+  CHECK(pieces(mesh).list[0].boundary_loops == 1);
+  CHECK(pieces(mesh).list[0].euler_characteristic == 1);
+}
+
+TEST_CASE("an end on a cut that leaves a side at a small angle may be rounded onto that side") {
+  // δe is a unit of the lattice. The end was a node inside of the triangle, which lay on its side.
+  HybridMesh mesh = *HybridMesh::build({{{0, 0, 4.1968370097030752},
+                                         {-0.76977410168158789, -0.63831640459908623, 0},
+                                         {0.36920169680273524, -0.9293492922889548, 0},
+                                         {0.99795329900981167, 0.063946954543851561, 0},
+                                         {0.24756736117041525, 0.96887068367409956, 0},
+                                         {-0.84494825530137407, 0.53484805867008989, 0},
+                                         {0, 0, -4.1968370097030752}},
+                                        {{0, 1, 2},
+                                         {0, 2, 3},
+                                         {0, 3, 4},
+                                         {0, 4, 5},
+                                         {0, 5, 1},
+                                         {6, 2, 1},
+                                         {6, 3, 2},
+                                         {6, 4, 3},
+                                         {6, 5, 4},
+                                         {6, 1, 5}}});
+  Cutter cutter({5.5640318482796972e-07, 5.5640318482796972e-07, 1.2986281549080431e-07});
+  const std::array<TriangleMesh, 2> cutters{
+      {{{{-0.43232377275234268, 0.2736587379347199, -8.5856433882222465},
+         {-0.43232377275234268, 0.2736587379347199, 4.4866631900751468},
+         {4.633711209183422e-07, -6.6205689032033725e-07, -2.3393154976242219},
+         {4.633711209183422e-07, -6.6205689032033725e-07, 10.732991080673171}},
+        {{0, 1, 3}, {0, 3, 2}}},
+       {{{-0.43232350311876938, 0.27365855940081524, -8.5856432211783762},
+         {-0.43232350311876938, 0.27365855940081524, 4.4866633571190162},
+         {-0.43232321161536125, 0.27365836638612112, -8.5856430405856692},
+         {-0.43232321161536125, 0.27365836638612112, 4.4866635377117241}},
+        {{0, 1, 3}, {0, 3, 2}}}}};
+  for (const TriangleMesh& blade : cutters) {
+    REQUIRE(cutter.cut(mesh, blade).has_value());
+    CHECK(validate(mesh).empty());
+  }
+}

@@ -66,7 +66,7 @@ class VertexCopier {
   VertexCopier(HybridMesh& mesh, ChangeLog& log, const Executor& executor)
       : mesh_(mesh), log_(log), executor_(executor) {}
 
-  void run(std::span<const TriangleWork> works) {
+  std::vector<std::pair<AncestorId, Index>> run(std::span<const TriangleWork> works) {
     executor_.for_each(works.size(), [&](std::size_t i) { inherit_vertices(works[i]); });
     std::vector<AncestorNodeId> physics_nodes;
     std::vector<AncestorEdgeId> edges;
@@ -101,6 +101,8 @@ class VertexCopier {
       end_group(groups);
     });
     free_unclaimed();
+    lattice::sort_unique(come_apart_);
+    return std::move(come_apart_);
   }
 
  private:
@@ -314,7 +316,13 @@ class VertexCopier {
       log_.render_triangles.push_back(a.ancestor.value);
       return;
     }
-    for (const RenderTriangleId t : arrangement->polygons[a.polygon].triangles)
+    const RenderPolygon& polygon = arrangement->polygons[a.polygon];
+    if (polygon.triangles.empty()) return;  // it is arranged anew, and triangulated later
+    if (old.valid() && std::ranges::count(polygon.corners, old, &PolygonCorner::vertex) > 0) {
+      come_apart_.emplace_back(a.ancestor, a.polygon);
+      return;
+    }
+    for (const RenderTriangleId t : polygon.triangles)
       for (RenderVertexId& v : mesh_.buffers.render_triangles[t.index()].vertices)
         if (v == old) {
           v = id;
@@ -361,14 +369,17 @@ class VertexCopier {
   std::vector<AncestorId> with_angles_;  ///< sorted
   std::vector<std::vector<Angle>> angles_;
   std::vector<RenderVertexId> released_;
+  std::vector<std::pair<AncestorId, Index>> come_apart_;
   NumberSet claimed_;
 };
 
 }  // namespace
 
-void copy_boundary_nodes(HybridMesh& mesh, std::span<const TriangleWork> works, const Executor& executor,
-                         ChangeLog& log) {
-  VertexCopier(mesh, log, executor).run(works);
+std::vector<std::pair<AncestorId, std::uint32_t>> copy_boundary_nodes(HybridMesh& mesh,
+                                                                      std::span<const TriangleWork> works,
+                                                                      const Executor& executor,
+                                                                      ChangeLog& log) {
+  return VertexCopier(mesh, log, executor).run(works);
 }
 
 }  // namespace cut

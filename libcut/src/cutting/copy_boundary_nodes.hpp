@@ -5,7 +5,9 @@
 /// without render vertices. Out: arrangements complete but for render triangles (triangulate_polygons.hpp),
 /// and the buffer of render vertices.
 #pragma once
+#include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "cut/executor.hpp"
@@ -18,7 +20,11 @@ namespace cut {
 /// @param works those whose arrangement or whose sides' sections have changed, `before` still being their old
 /// arrangement.
 ///        O(corners of these polygons and of the neighbours at their border · log)
-void copy_boundary_nodes(HybridMesh& mesh, std::span<const TriangleWork> works, const Executor& executor,
-                         ChangeLog& log);
+/// @return polygons, by ancestor and index, two of whose angles at one node no longer share their vertex:
+/// which render triangles belong to which angle, only triangulation tells
+std::vector<std::pair<AncestorId, std::uint32_t>> copy_boundary_nodes(HybridMesh& mesh,
+                                                                      std::span<const TriangleWork> works,
+                                                                      const Executor& executor,
+                                                                      ChangeLog& log);
 
 }  // namespace cut

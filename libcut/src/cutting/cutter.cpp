@@ -198,10 +198,11 @@ Result<Changes> Cutter::cut(HybridMesh& mesh, const TriangleMesh& cutter) {
   lattice::sort_unique(touched);
   copy_physics_nodes(mesh, touched, executor, log);
   update_springs(mesh, touched, log);
-  copy_boundary_nodes(mesh, works, executor, log);
+  const auto come_apart = copy_boundary_nodes(mesh, works, executor, log);
   watch.lap(timings.reconnect);
 
   triangulate_polygons(mesh, works, executor, log);
+  triangulate_again(mesh, come_apart, log);
   update_vertex_nodes(mesh, log);
   mesh.state = new_state();
   memory_->broad_phase.add(mesh, log.triangle_copies);

@@ -53,7 +53,7 @@ bool on_side(LatticePoint p, std::size_t side) { return p[last_corner(side)] == 
 LineEnd end_on_side(LatticePoint p) {
   if (const std::size_t corner = corner_of(p); corner < 3)
     return {p, LineEnd::On::node, static_cast<std::uint32_t>(corner), p};
-  return {p, LineEnd::On::physics_edge, 0, p};
+  return {p, LineEnd::On::physics_edge, 0, p, true};
 }
 
 /// No way leads through more edges: an end sees at most the triangles around one node.

@@ -139,6 +139,13 @@ class EndpointMerger {
              i};
     }
     if (end.on == LineEnd::On::cut_edge) merge_along_cut_edge(end);
+    if (end.on != LineEnd::On::cut_edge) return;
+    // A cut that leaves a side at a small angle may have rounded the end onto that side.
+    if (const std::size_t corner = corner_of(end.point); corner < 3) {
+      end = {end.point, LineEnd::On::node, static_cast<std::uint32_t>(corner)};
+    } else if (edge_of(end.point) < 3) {
+      end = {end.point, LineEnd::On::physics_edge, 0};
+    }
   }
 
   TriangleWork& work_;

@@ -13,6 +13,7 @@ namespace {
 struct EdgePoint {
   AncestorEdgeId edge;
   std::int32_t t;
+  bool passes;              ///< see LineEnd
   std::int32_t merged = 0;  ///< where it went
 };
 
@@ -48,12 +49,12 @@ std::vector<Target> targets_of(const HybridMesh& mesh, AncestorEdgeId edge, cons
 }
 
 /// Sends a point to the nearest recent node within δc, else to the nearest within δn. `unit` is the length of
-/// a lattice unit.
-bool merge_to_node(EdgePoint& point, const std::vector<Target>& targets, double unit) {
+/// a lattice unit, `passing_reach` what is left of δc where a line only passes.
+bool merge_to_node(EdgePoint& point, const std::vector<Target>& targets, double unit, double passing_reach) {
   const Target* best = nullptr;
   for (const Target& target : targets) {
     const std::int32_t distance = std::abs(target.t - point.t);
-    if (unit * distance > target.reach) continue;
+    if (unit * distance > (point.passes ? std::min(target.reach, passing_reach) : target.reach)) continue;
     if (best != nullptr && std::tuple(!best->recent, std::abs(best->t - point.t), best->t) <=
                                std::tuple(!target.recent, distance, target.t))
       continue;
@@ -73,7 +74,7 @@ bool settle(HybridMesh& mesh, EdgePoint* begin, EdgePoint* end, const CutContext
   std::vector<Target> targets = targets_of(mesh, edge, distances, context);
   std::vector<EdgePoint*> fresh;
   for (EdgePoint* p = begin; p != end; ++p)
-    if (!merge_to_node(*p, targets, unit)) fresh.push_back(p);
+    if (!merge_to_node(*p, targets, unit, distances.node)) fresh.push_back(p);
   for (std::size_t i = 0; i < fresh.size();) {
     std::size_t last = i;
     while (last + 1 < fresh.size() && unit * (fresh[last + 1]->t - fresh[i]->t) <= distances.node) ++last;
@@ -87,7 +88,7 @@ bool settle(HybridMesh& mesh, EdgePoint* begin, EdgePoint* end, const CutContext
     insert_boundary_node(edge_state_for_writing(mesh, edge), centre->t, context.this_cut);
     targets.push_back({centre->t, false, centre->t, distances.node});
   }
-  for (EdgePoint* p = begin; p != end; ++p) merge_to_node(*p, targets, unit);
+  for (EdgePoint* p = begin; p != end; ++p) merge_to_node(*p, targets, unit, distances.node);
   return !fresh.empty();
 }
 
@@ -99,7 +100,7 @@ void merge_on_physics_edges(HybridMesh& mesh, std::vector<TriangleWork>& works, 
   const auto edge_point = [&](const TriangleWork& work, const LineEnd& end) {
     const std::size_t i = edge_of(end.point);
     return EdgePoint{ancestors.triangles[work.ancestor.index()].edges[i],
-                     along_edge(ancestors, work.ancestor, i, end.point)};
+                     along_edge(ancestors, work.ancestor, i, end.point), end.passes};
   };
   std::vector<EdgePoint> points;
   for (const TriangleWork& work : works)
@@ -108,7 +109,7 @@ void merge_on_physics_edges(HybridMesh& mesh, std::vector<TriangleWork>& works, 
         if (end.on == LineEnd::On::physics_edge && edge_of(end.point) < 3 && corner_of(end.point) == 3)
           points.push_back(edge_point(work, end));
   const auto less = [](const EdgePoint& a, const EdgePoint& b) {
-    return std::tie(a.edge, a.t) < std::tie(b.edge, b.t);
+    return std::tie(a.edge, a.t, a.passes) < std::tie(b.edge, b.t, b.passes);
   };
   std::sort(points.begin(), points.end(), less);
   points.erase(
@@ -135,7 +136,9 @@ void merge_on_physics_edges(HybridMesh& mesh, std::vector<TriangleWork>& works, 
       for (LineEnd* end : {&line.a, &line.b}) {
         if (end->on != LineEnd::On::physics_edge || corner_of(end->point) < 3) continue;
         const std::size_t i = edge_of(end->point);
-        const auto found = std::lower_bound(points.begin(), points.end(), edge_point(work, *end), less);
+        EdgePoint first = edge_point(work, *end);
+        first.passes = false;
+        const auto found = std::lower_bound(points.begin(), points.end(), first, less);
         end->point = lattice_point_on_edge(
             i, ancestors.reversed(work.ancestor, i) ? lattice_size - found->merged : found->merged);
       }

@@ -37,6 +37,7 @@ struct LineEnd {
   On on = On::nothing;
   std::uint32_t index = 0;
   LatticePoint detected{};  ///< where it was before it was merged; set by merge_cut_endpoints
+  bool passes = false;      ///< the line is led on across the edge here; nodes attract it from δn only
 
   auto operator<=>(const LineEnd&) const = default;
 };

@@ -79,6 +79,27 @@ void triangulate_polygons(HybridMesh& mesh, std::span<const TriangleWork> works,
   }
 }
 
+void triangulate_again(HybridMesh& mesh, std::span<const std::pair<AncestorId, std::uint32_t>> polygons,
+                       ChangeLog& log) {
+  for (const auto& [ancestor, p] : polygons) {
+    const Arrangement& arrangement = *mesh.arrangement(ancestor);
+    const RenderPolygon& polygon = arrangement.polygons[p];
+    std::vector<LatticePoint> points;
+    for (const PolygonCorner& c : polygon.corners) points.push_back(arrangement.nodes[c.node].point);
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    lattice::TriangulationScratch scratch;
+    lattice::triangulate(points, polygon.loop_ends, rest_metric(mesh.ancestors, ancestor), triangles,
+                         scratch);
+    for (std::size_t k = 0; k < triangles.size(); ++k) {
+      const auto& t = triangles[k];
+      const RenderTriangleId id = polygon.triangles[k];
+      mesh.buffers.render_triangles[id.index()].vertices = {
+          polygon.corners[t[0]].vertex, polygon.corners[t[1]].vertex, polygon.corners[t[2]].vertex};
+      log.render_triangles.push_back(id.value);
+    }
+  }
+}
+
 void update_vertex_nodes(HybridMesh& mesh, ChangeLog& log) {
   lattice::sort_unique(log.triangles);
   const auto update = [&](RenderVertexId v, TriangleId triangle) {
