@@ -222,16 +222,12 @@ std::optional<Error> Simulation::implicit_velocities(const HybridMesh& mesh, dou
   set_up_system(mesh, time_step);
   if (auto error = unsound_forces()) return error;
   std::fill(implicit_.change.begin(), implicit_.change.end(), PaddedVector{});
-  if (!obstacles.empty()) {
-    // Which nodes touch, and which of them slide, is known long before the last digits of velocities are.
-    constexpr int early_passes = 4, most_passes = 16;
-    const double rough = std::max(surroundings.tolerance, 1e-3);
-    int pass = 0;
-    do
-      if (auto error = solve(rough)) return error;
-    while (pass < most_passes && update_contacts(obstacles, time_step, pass++ >= early_passes));
-  }
   if (auto error = solve(surroundings.tolerance)) return error;
+  constexpr int early_passes = 4, most_passes = 16;
+  for (int pass = 0; pass < most_passes && !obstacles.empty(); ++pass) {
+    if (!update_contacts(obstacles, time_step, pass >= early_passes)) break;
+    if (auto error = solve(surroundings.tolerance)) return error;
+  }
   return unsound_velocity(speed_limit);
 }
 
