@@ -169,7 +169,7 @@ class Simulation {
   void multiply(const std::vector<PaddedVector>& vector);
   void leave_held(std::vector<PaddedVector>& vectors) const;
   void find_residual();
-  std::optional<Error> solve(double tolerance);
+  std::optional<Error> solve();
   bool update_contacts(const Obstacles& obstacles, double time_step, bool late);
   void keep_out(const Obstacles& obstacles, std::vector<PaddedVector>& velocities) const;
   [[nodiscard]] double contact_slack() const;

@@ -13,18 +13,11 @@ struct Loops {
     const ColumnArrays &p = nodes.position_columns, &v = nodes.velocity_columns;
     for (std::size_t a = from; a < to; ++a) {
       const std::size_t b = a + d.offset, entry = a - d.first;
-      const double dx = p[0][b] - p[0][a], dy = p[1][b] - p[1][a], dz = p[2][b] - p[2][a];
-      const double ux = v[0][b] - v[0][a], uy = v[1][b] - v[1][a], uz = v[2][b] - v[2][a];
-      const double squared = (dx * dx + dy * dy) + dz * dz;
-      const double length = std::sqrt(squared);
-      const double inverse_squared = squared >= smallest_squared_length ? 1 / squared : 0;
-      const double stretch = d.stiffness[entry] * (length - d.rest_length[entry]);
-      const double rate = d.damping[entry] * ((ux * dx + uy * dy) + uz * dz);
-      const double scale = (stretch * length + rate) * inverse_squared;
+      const std::array<double, 3> along{p[0][b] - p[0][a], p[1][b] - p[1][a], p[2][b] - p[2][a]};
+      const double scale = force_per_length(along, {v[0][b] - v[0][a], v[1][b] - v[1][a], v[2][b] - v[2][a]},
+                                            d.rest_length[entry], d.stiffness[entry], d.damping[entry]);
       const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(a) + shift;
-      forces[0][i] = dx * scale;
-      forces[1][i] = dy * scale;
-      forces[2][i] = dz * scale;
+      for (std::size_t k = 0; k < 3; ++k) forces[k][i] = along[k] * scale;
     }
   }
 

@@ -160,7 +160,7 @@ void Simulation::find_residual() {
 
 /// Improves `change` until the residual is small. Free nodes then get the rest of it as an impulse: sums of
 /// pairs of forces, which conserve momentum whatever the tolerance is.
-std::optional<Error> Simulation::solve(double tolerance) {
+std::optional<Error> Simulation::solve() {
   ImplicitWork& w = implicit_;
   const auto precondition = [&] {
     for (std::size_t n = 0; n < w.residual.size(); ++n)
@@ -168,7 +168,8 @@ std::optional<Error> Simulation::solve(double tolerance) {
     leave_held(w.preconditioned);
   };
   find_residual();
-  const double enough = tolerance * tolerance * weighted_square(w.right, inverse_mass_);
+  const double enough =
+      surroundings.tolerance * surroundings.tolerance * weighted_square(w.right, inverse_mass_);
   const auto done = [&] { return weighted_square(w.residual, inverse_mass_) <= enough; };
   precondition();
   w.direction = w.preconditioned;
@@ -222,11 +223,11 @@ std::optional<Error> Simulation::implicit_velocities(const HybridMesh& mesh, dou
   set_up_system(mesh, time_step);
   if (auto error = unsound_forces()) return error;
   std::fill(implicit_.change.begin(), implicit_.change.end(), PaddedVector{});
-  if (auto error = solve(surroundings.tolerance)) return error;
+  if (auto error = solve()) return error;
   constexpr int early_passes = 4, most_passes = 16;
   for (int pass = 0; pass < most_passes && !obstacles.empty(); ++pass) {
     if (!update_contacts(obstacles, time_step, pass >= early_passes)) break;
-    if (auto error = solve(surroundings.tolerance)) return error;
+    if (auto error = solve()) return error;
   }
   return unsound_velocity(speed_limit);
 }

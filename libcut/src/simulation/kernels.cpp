@@ -17,16 +17,10 @@ void add_spring_forces(const SpringArrays& springs, const PaddedVector* position
     const PaddedVector& pb = positions[b];
     const PaddedVector& va = velocities[a];
     const PaddedVector& vb = velocities[b];
-    const double dx = pb.x - pa.x, dy = pb.y - pa.y, dz = pb.z - pa.z;
-    const double ux = vb.x - va.x, uy = vb.y - va.y, uz = vb.z - va.z;
-    const double squared = (dx * dx + dy * dy) + dz * dz;
-    const double length = std::sqrt(squared);
-    // Root and quotient do not wait for each other.
-    const double inverse_squared = squared >= smallest_squared_length ? 1 / squared : 0;
-    const double stretch = springs.stiffness[i] * (length - springs.rest_length[i]);
-    const double rate = springs.damping[i] * ((ux * dx + uy * dy) + uz * dz);
-    const double scale = (stretch * length + rate) * inverse_squared;
-    const double fx = dx * scale, fy = dy * scale, fz = dz * scale;
+    const std::array<double, 3> d{pb.x - pa.x, pb.y - pa.y, pb.z - pa.z};
+    const double scale = force_per_length(d, {vb.x - va.x, vb.y - va.y, vb.z - va.z}, springs.rest_length[i],
+                                          springs.stiffness[i], springs.damping[i]);
+    const double fx = d[0] * scale, fy = d[1] * scale, fz = d[2] * scale;
     forces[a].x += fx;
     forces[a].y += fy;
     forces[a].z += fz;
@@ -65,19 +59,6 @@ void move(double time_step, std::span<const PaddedVector> positions, const Padde
   }
 }
 
-bool advance_nodes(std::span<const std::uint32_t> which, const VelocityUpdate& update,
-                   const NodeArrays& nodes) {
-  bool sound = true;
-  for (const std::uint32_t n : which) {
-    sound &=
-        replace_by_velocities(update, {nodes.inverse_mass + n, 1}, nodes.velocities + n, nodes.forces + n);
-    if (nodes.moves)
-      move(update.time_step, {nodes.positions + n, 1},
-           (update.old_first ? nodes.velocities : nodes.forces) + n, nodes.next_positions + n);
-  }
-  return sound;
-}
-
 void to_columns(const PaddedVector* vectors, std::size_t first, std::size_t last, const ColumnArrays& to) {
   for (std::size_t n = first; n < last; ++n) {
     to[0][n] = vectors[n].x;
@@ -97,7 +78,6 @@ const Kernels& portable_kernels() {
                                    add_spring_forces<false>,
                                    replace_by_velocities,
                                    move,
-                                   advance_nodes,
                                    advance_block_portable,
                                    to_columns,
                                    from_columns};

@@ -4,6 +4,7 @@
 /// fused with sums.
 #pragma once
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -21,8 +22,8 @@ struct VelocityUpdate {
   double speed_limit;         ///< for the amount of each component
   bool old_first = false;     ///< nodes move on with their old velocity
 
-  [[nodiscard]] double next(double force, double inverse_mass, double velocity, double acceleration_) const {
-    const double a = force * inverse_mass + (acceleration_ - drag * velocity);
+  [[nodiscard]] double next(double force, double inverse_mass, double velocity, double pull) const {
+    const double a = force * inverse_mass + (pull - drag * velocity);
     return inverse_mass > 0 ? velocity + a * time_step : velocity;
   }
 };
@@ -56,6 +57,19 @@ struct NodeArrays {
 /// force is taken. The smallest normal number, whose inverse is finite.
 inline constexpr double smallest_squared_length = std::numeric_limits<double>::min();
 
+/// Equations 1 to 3: the force of a spring and a damper on its first node, over the vector along it.
+/// @param d,u  differences of position and velocity
+inline double force_per_length(const std::array<double, 3>& d, const std::array<double, 3>& u,
+                               double rest_length, double stiffness, double damping) {
+  const double squared = (d[0] * d[0] + d[1] * d[1]) + d[2] * d[2];
+  const double length = std::sqrt(squared);
+  // Root and quotient do not wait for each other.
+  const double inverse_squared = squared >= smallest_squared_length ? 1 / squared : 0;
+  const double stretch = stiffness * (length - rest_length);
+  const double rate = damping * ((u[0] * d[0] + u[1] * d[1]) + u[2] * d[2]);
+  return (stretch * length + rate) * inverse_squared;
+}
+
 struct Kernels {
   /// Equations 1 to 3: adds the forces of springs and dampers to `forces`. Springs in order of index; their
   /// number is a multiple of 4.
@@ -71,9 +85,6 @@ struct Kernels {
   /// Equation 6: from `positions` to `moved`, which may be the same.
   void (*move)(double time_step, std::span<const PaddedVector> positions, const PaddedVector* velocities,
                PaddedVector* moved);
-  /// Equations 4 to 6 for single nodes. Returns what `replace_by_velocities` does.
-  bool (*advance_nodes)(std::span<const std::uint32_t> which, const VelocityUpdate& update,
-                        const NodeArrays& nodes);
   /// All equations for the nodes of a block with diagonals, but not for copies. Without an update adds the
   /// forces of springs in diagonals to `forces`. Returns what `replace_by_velocities` does.
   /// @param begun  whether there is something in `forces` to begin with

@@ -68,19 +68,6 @@ SNIP_AVX2 void move(double time_step, std::span<const PaddedVector> positions, c
     store(moved[n], _mm256_add_pd(load(positions[n]), _mm256_mul_pd(load(velocities[n]), factor)));
 }
 
-SNIP_AVX2 bool advance_nodes(std::span<const std::uint32_t> which, const VelocityUpdate& update,
-                             const NodeArrays& nodes) {
-  bool sound = true;
-  for (const std::uint32_t n : which) {
-    sound &=
-        replace_by_velocities(update, {nodes.inverse_mass + n, 1}, nodes.velocities + n, nodes.forces + n);
-    if (nodes.moves)
-      move(update.time_step, {nodes.positions + n, 1},
-           (update.old_first ? nodes.velocities : nodes.forces) + n, nodes.next_positions + n);
-  }
-  return sound;
-}
-
 SNIP_AVX2 void to_columns(const PaddedVector* vectors, std::size_t first, std::size_t last,
                           const ColumnArrays& to) {
   std::size_t n = first;
@@ -107,7 +94,6 @@ const Kernels& best_kernels() {
                                    add_spring_forces<false>,
                                    replace_by_velocities,
                                    move,
-                                   advance_nodes,
                                    advance_block_avx2,
                                    to_columns,
                                    from_columns};
