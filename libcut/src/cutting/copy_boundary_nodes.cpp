@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "cutting/edge_state.hpp"
+#include "cutting/number_set.hpp"
 #include "lattice/components.hpp"
 #include "lattice/sort_unique.hpp"
 
@@ -23,42 +24,6 @@ struct Angle {
   /// starts here, counterclockwise; an invalid edge where a cut bounds the angle.
   std::array<AncestorEdgeId, 2> edge;
   std::array<Index, 2> section{};
-};
-
-/// A set of numbers that asks for memory once in a while only.
-class NumberSet {
- public:
-  void reserve(std::size_t numbers) {
-    std::size_t size = 64;
-    while (size < 2 * numbers) size *= 2;
-    if (size > slots_.size()) grow(size);
-  }
-  [[nodiscard]] bool contains(Index number) const {
-    return !slots_.empty() && slots_[slot(number)] == number;
-  }
-  void insert(Index number) {
-    if (2 * (count_ + 1) > slots_.size()) grow(std::max<std::size_t>(64, 2 * slots_.size()));
-    Index& place = slots_[slot(number)];
-    if (place != number) ++count_;
-    place = number;
-  }
-
- private:
-  static constexpr Index free = HybridMesh::none;
-  /// Where it is, or would be.
-  [[nodiscard]] std::size_t slot(Index number) const {
-    std::size_t i = (number * std::size_t{0x9e3779b1}) & (slots_.size() - 1);
-    while (slots_[i] != number && slots_[i] != free) i = (i + 1) & (slots_.size() - 1);
-    return i;
-  }
-  void grow(std::size_t size) {
-    std::vector<Index> old(size, free);
-    old.swap(slots_);
-    for (const Index number : old)
-      if (number != free) slots_[slot(number)] = number;
-  }
-  std::vector<Index> slots_;
-  std::size_t count_ = 0;
 };
 
 class VertexCopier {
@@ -85,7 +50,7 @@ class VertexCopier {
     for (const TriangleWork& work : works) {
       const Index first_inner = mesh_.arrangement(work.ancestor)->first_inner_node();
       for (const Angle& angle : angles(work.ancestor))
-        if (angle.node >= first_inner) assign({{&angle, 1}, {&only_, 1}});
+        if (angle.node >= first_inner) assign({{&angle, 1}, {&only, 1}});
     }
     // In groups of nodes, since one node alone is hardly worth a turn.
     assign_all(edges.size(), [&](std::size_t i, Groups& groups) {
@@ -362,7 +327,7 @@ class VertexCopier {
     }
   }
 
-  static constexpr Index only_ = 0;  ///< the root of an angle by itself
+  static constexpr Index only = 0;  ///< the root of an angle by itself
   HybridMesh& mesh_;
   ChangeLog& log_;
   const Executor& executor_;

@@ -6,45 +6,32 @@
 #include <iterator>
 
 #include "cutting/edge_state.hpp"
+#include "lattice/plane.hpp"
 #include "lattice/sort_unique.hpp"
 #include "mesh/vector3.hpp"
 
 namespace cut {
 namespace {
 
-/// A point of the plane into which triangles are unfolded.
-struct Flat {
-  double x;
-  double y;
-  friend Flat operator-(Flat a, Flat b) { return {a.x - b.x, a.y - b.y}; }
-  friend Flat operator+(Flat a, Flat b) { return {a.x + b.x, a.y + b.y}; }
-  friend Flat operator*(double s, Flat a) { return {s * a.x, s * a.y}; }
-};
-double cross(Flat a, Flat b) { return a.x * b.y - a.y * b.x; }
-double dot(Flat a, Flat b) { return a.x * b.x + a.y * b.y; }
+using lattice::PlanePoint;
+using lattice::PlaneTriangle;
 
-double distance_to_segment(Flat p, Flat a, Flat b) {
-  const Flat along = b - a;
+double distance_to_segment(PlanePoint p, PlanePoint a, PlanePoint b) {
+  const PlanePoint along = b - a;
   const double squared = dot(along, along);
   const double s = squared > 0 ? std::clamp(dot(p - a, along) / squared, 0.0, 1.0) : 0.0;
-  const Flat d = p - (a + s * along);
+  const PlanePoint d = p - (a + s * along);
   return std::sqrt(dot(d, d));
 }
 
-using Corners = std::array<Flat, 3>;
-
-Flat flat(const Corners& corners, LatticePoint p) {
-  return corners[0] + static_cast<double>(p.x) / lattice_size * (corners[1] - corners[0]) +
-         static_cast<double>(p.y) / lattice_size * (corners[2] - corners[0]);
-}
-
 /// The corner at these distances from the ends of an edge, on the side of it where `away` is not.
-Flat third_corner(Flat start, Flat end, double squared_to_start, double squared_to_end, Flat away) {
-  const Flat along = end - start;
+PlanePoint third_corner(PlanePoint start, PlanePoint end, double squared_to_start, double squared_to_end,
+                        PlanePoint away) {
+  const PlanePoint along = end - start;
   const double squared = dot(along, along);
   const double s = 0.5 * ((squared_to_start - squared_to_end) / squared + 1);
   const double h = std::sqrt(std::max(squared_to_start / squared - s * s, 0.0));
-  const Flat normal{-along.y, along.x};
+  const PlanePoint normal{-along.y, along.x};
   return start + s * along + (cross(along, away - start) > 0 ? -h : h) * normal;
 }
 
@@ -79,13 +66,8 @@ class Surroundings::Walk {
 
   std::optional<NodeAcross> run(std::uint32_t polygon) {
     const TriangleWork& work = surroundings_.work_;
-    const Ancestor& t = mesh_.ancestors.triangles[work.ancestor.index()];
-    const Flat start{0, 0};
-    const Flat end{std::sqrt(squared_distance(t.nodes[0], t.nodes[1])), 0};
-    const Corners corners{start, end,
-                          third_corner(start, end, squared_distance(t.nodes[0], t.nodes[2]),
-                                       squared_distance(t.nodes[1], t.nodes[2]), {0, -1})};
-    from_ = flat(corners, p_);
+    const PlaneTriangle corners = lattice::laid_out(work.metric);
+    from_ = in_plane(corners, p_);
     leave(work, corners, polygon, 3, work.distances);
     return std::move(best_);
   }
@@ -98,10 +80,10 @@ class Surroundings::Walk {
     AncestorEdgeId edge;
     std::int32_t first;  ///< the section, in units from the start of the edge
     std::int32_t last;
-    Flat first_at;
-    Flat last_at;
-    Flat low;  ///< all directions from the end that lead through this gate and those before it
-    Flat high;
+    PlanePoint first_at;
+    PlanePoint last_at;
+    PlanePoint low;  ///< all directions from the end that lead through this gate and those before it
+    PlanePoint high;
     std::uint32_t outer_polygon;
   };
 
@@ -111,30 +93,28 @@ class Surroundings::Walk {
   }
 
   /// Through all sections of a polygon's sides that are within reach, but for the side where it was entered.
-  void leave(const TriangleWork& work, const Corners& corners, std::uint32_t polygon, std::size_t entered,
-             const MergeDistances& distances) {
+  void leave(const TriangleWork& work, const PlaneTriangle& corners, std::uint32_t polygon,
+             std::size_t entered, const MergeDistances& distances) {
     if (gates_.size() == most_edges) return;
     const AncestorMesh& ancestors = mesh_.ancestors;
     for (std::size_t i = 0; i < 3; ++i) {
       const AncestorId beyond = ancestors.neighbour(work.ancestor, i);
       if (i == entered || !beyond.valid()) continue;
       const bool reversed = ancestors.reversed(work.ancestor, i);
-      const Flat start = corners[reversed ? next_corner(i) : i];
-      const Flat end = corners[reversed ? i : next_corner(i)];
+      const PlanePoint start = corners[reversed ? next_corner(i) : i];
+      const PlanePoint end = corners[reversed ? i : next_corner(i)];
       if (distance_to_segment(from_, start, end) > distances.cut) continue;
       const AncestorEdgeId edge = ancestors.triangles[work.ancestor.index()].edges[i];
       const EdgeState* state = mesh_.edge_state(edge);
       for_each_section(mesh_, work.ancestor, i, [&](std::size_t section, std::uint32_t at) {
         if (at != polygon || is_cut(state, section)) return;
-        const std::int32_t first = section == 0 ? 0 : state->nodes[section - 1].t;
-        const std::int32_t last =
-            state == nullptr || section == state->nodes.size() ? lattice_size : state->nodes[section].t;
+        const auto [first, last] = section_range(state, section);
         const auto point = [&](std::int32_t t) {
           return start + static_cast<double>(t) / lattice_size * (end - start);
         };
         if (distance_to_segment(from_, point(first), point(last)) > distances.cut) return;
-        Flat low = point(first) - from_;
-        Flat high = point(last) - from_;
+        PlanePoint low = point(first) - from_;
+        PlanePoint high = point(last) - from_;
         if (cross(low, high) < 0) std::swap(low, high);
         if (!gates_.empty()) {
           if (cross(gates_.back().low, low) < 0) low = gates_.back().low;
@@ -155,7 +135,7 @@ class Surroundings::Walk {
     }
   }
 
-  void enter(Neighbour& neighbour, std::size_t side, Flat start, Flat end, Flat behind,
+  void enter(Neighbour& neighbour, std::size_t side, PlanePoint start, PlanePoint end, PlanePoint behind,
              const MergeDistances& so_far) {
     const TriangleWork& work = neighbour.work;
     const auto& nodes = mesh_.ancestors.triangles[work.ancestor.index()].nodes;
@@ -163,7 +143,7 @@ class Surroundings::Walk {
     const std::size_t at_start = reversed ? next_corner(side) : side;
     const std::size_t at_end = reversed ? side : next_corner(side);
     const std::size_t third = last_corner(side);
-    Corners corners;
+    PlaneTriangle corners;
     corners[at_start] = start;
     corners[at_end] = end;
     corners[third] = third_corner(start, end, squared_distance(nodes[at_start], nodes[third]),
@@ -177,10 +157,10 @@ class Surroundings::Walk {
     leave(work, corners, polygon, side, distances);
   }
 
-  void consider(const TriangleWork& work, const Corners& corners, std::uint32_t node,
+  void consider(const TriangleWork& work, const PlaneTriangle& corners, std::uint32_t node,
                 const MergeDistances& distances) {
     const ArrangementNode& target = work.before.nodes[node];
-    const Flat to = flat(corners, target.point);
+    const PlanePoint to = in_plane(corners, target.point);
     const bool recent = surroundings_.context_.recent(target.stamp);
     const double distance = std::sqrt(dot(to - from_, to - from_));
     if (distance > (recent ? distances.cut : distances.node)) return;
@@ -244,7 +224,7 @@ class Surroundings::Walk {
   LatticePoint other_;
   bool best_recent_;
   double best_distance_;
-  Flat from_{};
+  PlanePoint from_{};
   std::vector<Gate> gates_;
   std::optional<NodeAcross> best_;
 };

@@ -10,6 +10,7 @@
 
 #include "cutting/merge_across_edges.hpp"
 #include "cutting/polygon_nodes.hpp"
+#include "lattice/plane.hpp"
 #include "spatial/point_cluster_dictionary.hpp"
 
 namespace cut {
@@ -173,15 +174,10 @@ void merge_free_endpoints(TriangleWork& work, const std::vector<LatticePoint>& b
   std::sort(open.begin(), open.end(), [](const auto& l, const auto& r) {
     return std::tie(l.first, l.second.point) < std::tie(r.first, r.second.point);
   });
-  // The tension-free triangle laid into a plane, for the dictionary.
-  const auto side = [&](LatticePoint p) { return p - LatticePoint{0, 0}; };
-  const double u = std::sqrt(work.metric.squared_length(side(lattice_corner(1))));
-  const double vx = work.metric.inner_product(side(lattice_corner(1)), side(lattice_corner(2))) / u;
-  const double vy = std::sqrt(std::max(work.metric.squared_length(side(lattice_corner(2))) - vx * vx, 0.0));
+  const lattice::PlaneTriangle plane = lattice::laid_out(work.metric);
   const auto flat = [&](LatticePoint p) {
-    const double x = static_cast<double>(p.x) / lattice_size;
-    const double y = static_cast<double>(p.y) / lattice_size;
-    return spatial::Point<double, 2>{x * u + y * vx, y * vy};
+    const lattice::PlanePoint at = in_plane(plane, p);
+    return spatial::Point<double, 2>{at.x, at.y};
   };
   using Clusters = spatial::PointClusterDictionary<double, 2, LatticePoint>;
   const auto point_of = [&](std::uint32_t n) { return work.before.nodes[n].point; };

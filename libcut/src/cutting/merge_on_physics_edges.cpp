@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 #include "cutting/edge_state.hpp"
 #include "lattice/sort_unique.hpp"
@@ -108,14 +109,11 @@ void merge_on_physics_edges(HybridMesh& mesh, std::vector<TriangleWork>& works, 
       for (const LineEnd& end : {line.a, line.b})
         if (end.on == LineEnd::On::physics_edge && edge_of(end.point) < 3 && corner_of(end.point) == 3)
           points.push_back(edge_point(work, end));
-  const auto less = [](const EdgePoint& a, const EdgePoint& b) {
-    return std::tie(a.edge, a.t, a.passes) < std::tie(b.edge, b.t, b.passes);
-  };
-  std::sort(points.begin(), points.end(), less);
-  points.erase(
-      std::unique(points.begin(), points.end(),
-                  [](const EdgePoint& a, const EdgePoint& b) { return a.edge == b.edge && a.t == b.t; }),
-      points.end());
+  // Where a line ends and another one passes, there is an end.
+  std::ranges::sort(points, {}, [](const EdgePoint& p) { return std::tuple(p.edge, p.t, p.passes); });
+  const auto place_of = [](const EdgePoint& p) { return std::pair(p.edge, p.t); };
+  const auto repeated = std::ranges::unique(points, {}, place_of);
+  points.erase(repeated.begin(), repeated.end());
 
   std::vector<AncestorEdgeId> changed;
   for (std::size_t i = 0; i < points.size();) {
@@ -136,9 +134,7 @@ void merge_on_physics_edges(HybridMesh& mesh, std::vector<TriangleWork>& works, 
       for (LineEnd* end : {&line.a, &line.b}) {
         if (end->on != LineEnd::On::physics_edge || corner_of(end->point) < 3) continue;
         const std::size_t i = edge_of(end->point);
-        EdgePoint first = edge_point(work, *end);
-        first.passes = false;
-        const auto found = std::lower_bound(points.begin(), points.end(), first, less);
+        const auto found = std::ranges::lower_bound(points, place_of(edge_point(work, *end)), {}, place_of);
         end->point = lattice_point_on_edge(
             i, ancestors.reversed(work.ancestor, i) ? lattice_size - found->merged : found->merged);
       }

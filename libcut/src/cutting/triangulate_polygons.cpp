@@ -9,25 +9,48 @@ namespace cut {
 
 namespace {
 
-/// Triangles of all polygons of one arrangement, as corners of their polygon.
+/// Triangles of a polygon, as its corners.
+using CornerTriangles = std::vector<std::array<std::uint32_t, 3>>;
+
+class Triangulator {
+ public:
+  void triangulate(const Arrangement& arrangement, const RenderPolygon& polygon,
+                   const lattice::Metric& metric, CornerTriangles& triangles) {
+    points_.clear();
+    for (const PolygonCorner& c : polygon.corners) points_.push_back(arrangement.nodes[c.node].point);
+    lattice::triangulate(points_, polygon.loop_ends, metric, triangles, scratch_);
+  }
+
+ private:
+  std::vector<LatticePoint> points_;
+  lattice::TriangulationScratch scratch_;
+};
+
+/// Triangles of all polygons of one arrangement.
 struct Triangulation {
-  std::vector<std::array<std::uint32_t, 3>> triangles;
+  CornerTriangles triangles;
   std::vector<std::size_t> ends;  ///< per polygon: where its triangles end
 };
 
 Triangulation triangulation_of(const Arrangement& arrangement, const lattice::Metric& metric) {
   Triangulation result;
-  lattice::TriangulationScratch scratch;
-  std::vector<LatticePoint> points;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
+  Triangulator triangulator;
+  CornerTriangles triangles;
   for (const RenderPolygon& polygon : arrangement.polygons) {
-    points.clear();
-    for (const PolygonCorner& c : polygon.corners) points.push_back(arrangement.nodes[c.node].point);
-    lattice::triangulate(points, polygon.loop_ends, metric, triangles, scratch);
+    triangulator.triangulate(arrangement, polygon, metric, triangles);
     result.triangles.insert(result.triangles.end(), triangles.begin(), triangles.end());
     result.ends.push_back(result.triangles.size());
   }
   return result;
+}
+
+void write(HybridMesh& mesh, RenderTriangleId id, const RenderPolygon& polygon,
+           const std::array<std::uint32_t, 3>& corners, ChangeLog& log) {
+  mesh.buffers.render_triangles[id.index()] = {
+      {polygon.corners[corners[0]].vertex, polygon.corners[corners[1]].vertex,
+       polygon.corners[corners[2]].vertex},
+      polygon.triangle};
+  log.render_triangles.push_back(id.value);
 }
 
 }  // namespace
@@ -53,7 +76,6 @@ void triangulate_polygons(HybridMesh& mesh, std::span<const TriangleWork> works,
       RenderPolygon& polygon = arrangement.polygons[p];
       polygon.triangles.clear();
       for (; next < triangulation.ends[p]; ++next) {
-        const auto& t = triangulation.triangles[next];
         RenderTriangleId id{render_triangles.size()};
         if (!idle.empty()) {
           id = idle.back();
@@ -64,10 +86,7 @@ void triangulate_polygons(HybridMesh& mesh, std::span<const TriangleWork> works,
         } else {
           render_triangles.emplace_back();
         }
-        render_triangles[id.index()] = {
-            {polygon.corners[t[0]].vertex, polygon.corners[t[1]].vertex, polygon.corners[t[2]].vertex},
-            polygon.triangle};
-        log.render_triangles.push_back(id.value);
+        write(mesh, id, polygon, triangulation.triangles[next], log);
         polygon.triangles.push_back(id);
       }
     }
@@ -81,22 +100,14 @@ void triangulate_polygons(HybridMesh& mesh, std::span<const TriangleWork> works,
 
 void triangulate_again(HybridMesh& mesh, std::span<const std::pair<AncestorId, std::uint32_t>> polygons,
                        ChangeLog& log) {
+  Triangulator triangulator;
+  CornerTriangles triangles;
   for (const auto& [ancestor, p] : polygons) {
     const Arrangement& arrangement = *mesh.arrangement(ancestor);
     const RenderPolygon& polygon = arrangement.polygons[p];
-    std::vector<LatticePoint> points;
-    for (const PolygonCorner& c : polygon.corners) points.push_back(arrangement.nodes[c.node].point);
-    std::vector<std::array<std::uint32_t, 3>> triangles;
-    lattice::TriangulationScratch scratch;
-    lattice::triangulate(points, polygon.loop_ends, rest_metric(mesh.ancestors, ancestor), triangles,
-                         scratch);
-    for (std::size_t k = 0; k < triangles.size(); ++k) {
-      const auto& t = triangles[k];
-      const RenderTriangleId id = polygon.triangles[k];
-      mesh.buffers.render_triangles[id.index()].vertices = {
-          polygon.corners[t[0]].vertex, polygon.corners[t[1]].vertex, polygon.corners[t[2]].vertex};
-      log.render_triangles.push_back(id.value);
-    }
+    triangulator.triangulate(arrangement, polygon, rest_metric(mesh.ancestors, ancestor), triangles);
+    for (std::size_t k = 0; k < triangles.size(); ++k)
+      write(mesh, polygon.triangles[k], polygon, triangles[k], log);
   }
 }
 

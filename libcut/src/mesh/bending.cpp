@@ -40,8 +40,7 @@ std::vector<BendingPair> bending_pairs(const HybridMesh& mesh, AncestorEdgeId ed
   std::map<TriangleId, std::int64_t> bordered;           // in lattice units
   std::map<std::array<TriangleId, 2>, std::int64_t> shared;
   for (std::size_t k = 0; k < sections; ++k) {
-    const std::int64_t from = k == 0 ? 0 : state->nodes[k - 1].t;
-    const std::int64_t to = k + 1 == sections ? lattice_size : state->nodes[k].t;
+    const auto [from, to] = section_range(state, k);
     for (const TriangleId fragment : fragments[k]) bordered[fragment] += to - from;
     if (!is_cut(state, k)) shared[fragments[k]] += to - from;
   }

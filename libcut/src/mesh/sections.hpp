@@ -1,7 +1,11 @@
 /// @file
-/// Reading what cuts made of the sections of an ancestor edge: which polygon lies at each, and whether it is
-/// cut.
+/// Reading what cuts made of the sections of an ancestor edge: where each is, which polygon lies at it, and
+/// whether it is cut.
 #pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
 #include "cut/hybrid_mesh.hpp"
 
 namespace cut {
@@ -19,6 +23,13 @@ void for_each_section(const HybridMesh& mesh, AncestorId t, std::size_t i, Visit
   const bool reversed = mesh.ancestors.reversed(t, i);
   for (std::size_t k = 0; k < polygons.size(); ++k)
     visit(k, polygons[reversed ? polygons.size() - 1 - k : k]);
+}
+
+/// Where a section begins and ends, in lattice units from the start of the edge.
+inline std::array<std::int32_t, 2> section_range(const EdgeState* state, std::size_t section) {
+  if (state == nullptr) return {0, lattice_size};
+  return {section == 0 ? 0 : state->nodes[section - 1].t,
+          section == state->nodes.size() ? lattice_size : state->nodes[section].t};
 }
 
 /// True when the two sides of a section are no longer joined.
