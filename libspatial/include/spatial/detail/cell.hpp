@@ -130,7 +130,9 @@ struct Cell {
   /// The first volume of a root: the cube at the lower corner of what it has to hold. A cube, since then
   /// doubling one axis after the other always doubles the longest one, so that a grown root is split as §5.1
   /// says.
-  static constexpr Cell cube_around(const Box<T, D>& bounds) {
+  /// @param roomy adds a margin on all sides, for what will lie a little outside: each doubling of the root
+  /// is a node more on every way down
+  static constexpr Cell cube_around(const Box<T, D>& bounds, bool roomy = false) {
     Cell cell{bounds, all_axes};
     decltype(half_extent(T{}, T{})) side{};
     for (std::size_t a = 0; a < D; ++a) {
@@ -139,7 +141,10 @@ struct Cell {
       const auto extent = half_extent(cell.box.min[a], cell.box.max[a]);
       side = extent > side ? extent : side;
     }
+    const auto margin = roomy ? static_cast<decltype(side)>(side / 16) : decltype(side){};
+    side = static_cast<decltype(side)>(side + 2 * margin);
     for (std::size_t a = 0; a < D; ++a) {
+      cell.box.min[a] = saturated_down(cell.box.min[a], margin);
       const T high = saturated_up(cell.box.min[a], side);
       cell.box.max[a] = high > cell.box.max[a] ? high : cell.box.max[a];
     }

@@ -120,7 +120,7 @@ Slot make_room(Tree& tree, const TreeBox<Tree>& box, std::uint32_t id) {
   std::uint32_t parent = Tree::none;
   std::uint32_t side = 0;
   ChildRef here = tree.root();
-  if (here.is_node() && !tree.node(here.index()).cell.holds(box))
+  if (here.is_node() && !encloses(tree.root_box(), box) && !tree.node(here.index()).cell.holds(box))
     return append_above(tree, here.index(), box, id);
   for (;;) {
     if (!here.is_node()) {

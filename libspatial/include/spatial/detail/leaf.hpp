@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "../box.hpp"
+#include "cell.hpp"
 #include "levels.hpp"
 
 namespace spatial::detail {
@@ -78,6 +79,10 @@ struct Leaf {
     const T* first;
     std::size_t rows;
     [[nodiscard]] const T* coordinates(std::size_t at) const { return first + at * rows; }
+    [[nodiscard]] Side side(std::size_t at, const Split<T, D>& split) const {
+      const T* low = coordinates(at) + split.axis;
+      return side_of(*low, low[rows - D], split.plane);
+    }
     [[nodiscard]] Box<T, D> operator[](std::size_t at) const {
       Box<T, D> result;
       const T* from = coordinates(at);
@@ -123,17 +128,41 @@ struct Leaf {
     }
     beside += static_cast<std::uint32_t>(is_beside);
   }
-  /// Element `to` gets the box of an element of a leaf with the same frame and the same number of rows.
-  void copy_box(const Leaf& source, std::size_t from, std::size_t to) {
-    is_flat() ? copy_rows<D>(source, from, to) : copy_rows<2 * D>(source, from, to);
-  }
-  template <std::size_t N>
-  void copy_rows(const Leaf& source, std::size_t from, std::size_t to) {
-    std::memcpy(coordinates(to), source.coordinates(from), N * sizeof(T));
-    const Level* old = source.level_column(from);
-    Level* fresh = level_column(to);
-    for (std::size_t r = 0; r < N; ++r) fresh[r * level_block] = old[r * level_block];
-  }
+  /// Element `to` gets the box of another one, and its levels.
+  void copy_box(std::size_t from, std::size_t to) { Arrays(*this).copy_box(Arrays(*this), from, to); }
+  /// The parts of the block, found once for loops.
+  struct Arrays {
+    Level* levels;
+    T* coordinates;
+    Value* values;
+    std::uint32_t* ids;
+    std::size_t rows;
+    explicit Arrays(const Leaf& leaf)
+        : levels(leaf.levels(0)),
+          coordinates(leaf.coordinates(0)),
+          values(leaf.values()),
+          ids(leaf.ids()),
+          rows(leaf.rows) {}
+    /// The levels are copied where there are as many rows, and mean something if the frame is the same.
+    /// @pre there are as many rows, or those of the source are flat
+    void copy_box(const Arrays& source, std::size_t from, std::size_t to) const {
+      if (source.rows == rows) {
+        rows == D ? copy_rows<D>(source, from, to) : copy_rows<2 * D>(source, from, to);
+      } else {
+        std::memcpy(coordinates + to * rows, source.coordinates + from * D, D * sizeof(T));
+        std::memcpy(coordinates + to * rows + D, source.coordinates + from * D, D * sizeof(T));
+      }
+    }
+
+   private:
+    template <std::size_t N>
+    void copy_rows(const Arrays& source, std::size_t from, std::size_t to) const {
+      std::memcpy(coordinates + to * N, source.coordinates + from * N, N * sizeof(T));
+      const Level* old = source.levels + from / level_block * level_block * N + from % level_block;
+      Level* fresh = levels + to / level_block * level_block * N + to % level_block;
+      for (std::size_t r = 0; r < N; ++r) fresh[r * level_block] = old[r * level_block];
+    }
+  };
   /// All boxes, levels and slot indices of another leaf; its frame, unless only this one has room for boxes.
   /// @pre there is room, and none here
   void copy_all(const Leaf& from) {

@@ -31,16 +31,19 @@ bool merge_into_first(Tree& tree, std::uint32_t index) {
     if (leaf.capacity >= total && leaf.is_flat() == flat) target = child.index();
   }
   if (target == Tree::none) return false;
+  typename Tree::LeafType& home = tree.leaf(target);
+  const typename Tree::Arrays to(home);
   for (const ChildRef child : node.child) {
     if (child.empty() || child.index() == target) continue;
     typename Tree::LeafType& from = tree.leaf(child.index());
-    for (std::uint32_t i = 0; i < from.count; ++i) tree.move_element(from, i, target, false);
+    const typename Tree::Arrays old(from);
+    for (std::uint32_t i = 0; i < from.count; ++i) tree.move_element(old, i, home, to, target);
     from.count = 0;
     tree.free_leaf(child.index());
   }
-  tree.leaf(target).indivisible = false;
-  tree.leaf(target).loose = 0;
-  tree.leaf(target).make_new_frame(tree.leaf(target).bounds());
+  home.indivisible = false;
+  home.loose = 0;
+  home.make_new_frame(home.bounds());
   tree.attach_leaf(target, node.parent, node.side);
   return true;
 }
@@ -101,7 +104,7 @@ void remove_at(Tree& tree, const Slot& where) {
   using Value = typename Tree::ValueType;
   Value* values = home.values();
   if (where.position != last) {
-    home.copy_box(home, last, where.position);
+    home.copy_box(last, where.position);
     const std::uint32_t moved = home.ids()[last];
     home.ids()[where.position] = moved;
     tree.slot(moved).position = where.position;

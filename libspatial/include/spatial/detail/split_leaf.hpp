@@ -34,7 +34,7 @@ bool split_leaf(Tree& tree, std::uint32_t index, const TreeBox<Tree>& incoming) 
   TreeBox<Tree> tight = tree.link_box(parent, side);
   extend(tight, incoming);
   TreeCell<Tree> cell =
-      parent == Tree::none ? TreeCell<Tree>::cube_around(tight) : tree.link_cell(parent, side);
+      parent == Tree::none ? TreeCell<Tree>::cube_around(tight, true) : tree.link_cell(parent, side);
   bool compressed = false;
   TreeSplit<Tree> at;
   for (;;) {
@@ -49,13 +49,9 @@ bool split_leaf(Tree& tree, std::uint32_t index, const TreeBox<Tree>& incoming) 
     compressed = true;
   }
   std::uint32_t counts[3] = {0, 0, 0};
-  TreeBox<Tree> bounds[3] = {no_box<Tree>(), no_box<Tree>(), no_box<Tree>()};
   const auto boxes = tree.leaf(index).boxes();
   for (std::uint32_t i = 0; i < tree.leaf(index).count; ++i) {
-    const TreeBox<Tree> box = boxes[i];
-    const Side to = side_of(box.min[at.axis], box.max[at.axis], at.plane);
-    ++counts[to];
-    extend(bounds[to], box);
+    ++counts[boxes.side(i, at)];
   }
   // Half of a volume may do with half of the levels, once on each axis.
   const bool same_frame = tree.leaf(index).frame_age < Tree::dimension && !tree.leaf(index).has_old_frame();
@@ -67,7 +63,6 @@ bool split_leaf(Tree& tree, std::uint32_t index, const TreeBox<Tree>& incoming) 
   for (std::uint32_t s = 0; s < 3; ++s) {
     if (counts[s] == 0) continue;
     leaves[s] = tree.new_leaf(Tree::capacity_for(counts[s]), tree.leaf(index).rows);
-    if (!same_frame) tree.leaf(leaves[s]).set_frame(Tree::FrameType::around(bounds[s]));
     if (same_frame) tree.leaf(leaves[s]).inherit_frame(tree.leaf(index));
   }
   undo.tree = nullptr;
@@ -78,9 +73,14 @@ bool split_leaf(Tree& tree, std::uint32_t index, const TreeBox<Tree>& incoming) 
   node.compressed = compressed;
   for (std::size_t s = 0; s < Tree::NodeType::lanes; ++s) node.set_child_box(s, no_box<Tree>());
   typename Tree::LeafType& old = tree.leaf(index);
+  typename Tree::LeafType* targets[3];
+  for (std::uint32_t s = 0; s < 3; ++s) targets[s] = &tree.leaf(leaves[s] == Tree::none ? index : leaves[s]);
+  using Arrays = typename Tree::Arrays;
+  const Arrays from(old);
+  const Arrays to[3] = {Arrays(*targets[0]), Arrays(*targets[1]), Arrays(*targets[2])};
   for (std::uint32_t i = 0; i < old.count; ++i) {
-    const TreeBox<Tree> box = boxes[i];
-    tree.move_element(old, i, leaves[side_of(box.min[at.axis], box.max[at.axis], at.plane)], same_frame);
+    const Side s = boxes.side(i, at);
+    tree.move_element(from, i, *targets[s], to[s], leaves[s]);
   }
   old.count = 0;
   tree.free_leaf(index);
@@ -88,7 +88,9 @@ bool split_leaf(Tree& tree, std::uint32_t index, const TreeBox<Tree>& incoming) 
   for (std::uint32_t s = 0; s < 3; ++s) {
     if (leaves[s] == Tree::none) continue;
     tree.attach_leaf(leaves[s], made, s);
-    node.set_child_box(s, bounds[s]);
+    const TreeBox<Tree> bounds = targets[s]->bounds();
+    if (!same_frame) targets[s]->make_new_frame(bounds);
+    node.set_child_box(s, bounds);
   }
   // What is still over the limit was indivisible before `incoming` came, so this goes no deeper.
   for (std::uint32_t s = 0; s < 3; ++s) {

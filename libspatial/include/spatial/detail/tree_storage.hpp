@@ -27,6 +27,7 @@ class TreeStorage {
   using NodeType = Node<T, D>;
   using FrameType = Frame<T, D>;
   using LeafType = Leaf<Value, T, D>;
+  using Arrays = typename LeafType::Arrays;
   using Memory = LeafMemory<Value, T, D, Allocator>;
   template <class X>
   using Rebound = typename std::allocator_traits<Allocator>::template rebind_alloc<X>;
@@ -159,20 +160,16 @@ class TreeStorage {
     return capacity < leaf_limit ? capacity : leaf_limit;
   }
 
-  /// Moves the element from one leaf to the end of another, and tells its slot.
-  void move_element(LeafType& from, std::uint32_t at, std::uint32_t to_index, bool same_frame) {
-    LeafType& to = leaves_[to_index];
+  /// Moves an element to the end of another leaf, and tells its slot. The levels are right only if the frames
+  /// are the same.
+  void move_element(const Arrays& from, std::uint32_t at, LeafType& to, const Arrays& target,
+                    std::uint32_t to_index) {
     const std::uint32_t end = to.count++;
-    if (same_frame) {
-      to.copy_box(from, at, end);
-    } else {
-      to.set_box(end, from.box(at));
-    }
-    const std::uint32_t id = from.ids()[at];
-    to.ids()[end] = id;
-    Value& value = from.values()[at];
-    ::new (static_cast<void*>(to.values() + end)) Value(std::move(value));
-    value.~Value();  // NOLINT(bugprone-use-after-move): what was moved from is destroyed
+    target.copy_box(from, at, end);
+    const std::uint32_t id = from.ids[at];
+    target.ids[end] = id;
+    ::new (static_cast<void*>(target.values + end)) Value(std::move(from.values[at]));
+    from.values[at].~Value();  // NOLINT(bugprone-use-after-move): what was moved from is destroyed
     slots_[id].leaf = to_index;
     slots_[id].position = end;
   }
