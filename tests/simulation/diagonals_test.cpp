@@ -18,7 +18,7 @@ namespace {
 
 struct State {
   std::vector<PaddedVector> positions, velocities, forces, next_positions;
-  std::vector<double> columns;
+  std::vector<cut::CacheLine> columns;
   bool sound = true;
 };
 

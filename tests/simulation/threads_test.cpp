@@ -51,14 +51,15 @@ Pulls pulls_of(const cut::SpringBlocks& blocks) {
     const auto own = [&](std::uint32_t n) { return n >= block.first && n < block.last; };
     for (const cut::SpringDiagonal& d : block.diagonals)
       for (std::size_t i = 0; i < d.used.size(); ++i) {
+        const double stiffness = d.springs[i / 4].stiffness[i % 4];
         if (d.used[i] == 0) {
-          CHECK(d.stiffness[i] == 0);
+          CHECK(stiffness == 0);
           continue;
         }
         const auto a = static_cast<std::uint32_t>(d.first + i), b = a + d.offset;
         CHECK((own(a) || own(b)));
-        if (own(a)) pulls[a].emplace_back(b, d.stiffness[i]);
-        if (own(b)) pulls[b].emplace_back(a, d.stiffness[i]);
+        if (own(a)) pulls[a].emplace_back(b, stiffness);
+        if (own(b)) pulls[b].emplace_back(a, stiffness);
       }
     for (const auto* list : {&block.inner, &block.outer})
       for (std::size_t i = 0; i < list->nodes.size(); ++i) {

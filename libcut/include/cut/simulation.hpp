@@ -35,6 +35,12 @@ struct alignas(32) PaddedVector {
   double x = 0, y = 0, z = 0, w = 0;
 };
 
+/// Numbers that begin where a line of a processor's cache does: what lies across two lines takes longer.
+struct alignas(64) CacheLine {
+  std::array<double, 8> values{};
+  bool operator==(const CacheLine&) const = default;
+};
+
 struct VelocityUpdate;
 struct NodeArrays;
 
@@ -197,7 +203,7 @@ class Simulation {
   std::vector<PaddedVector> forces_;           ///< work space of `step`
   /// Work space of `step` for nodes with springs in diagonals: x, y and z, each in an array of its own, of
   /// positions, next positions, velocities and next velocities.
-  std::vector<double> columns_;
+  std::vector<CacheLine> columns_;
   bool columns_swapped_ = false;  ///< the next ones stand first
 
   SpringArrays springs_;             ///< per spring of the mesh, padded to a multiple of 4 with free entries

@@ -13,33 +13,31 @@ struct Loops {
     const ColumnArrays &p = nodes.position_columns, &v = nodes.velocity_columns;
     for (std::size_t a = from; a < to; ++a) {
       const std::size_t b = a + d.offset, entry = a - d.first;
+      const FourSprings& four = d.springs[entry / 4];
       const std::array<double, 3> along{p[0][b] - p[0][a], p[1][b] - p[1][a], p[2][b] - p[2][a]};
-      const double scale = force_per_length(along, {v[0][b] - v[0][a], v[1][b] - v[1][a], v[2][b] - v[2][a]},
-                                            d.rest_length[entry], d.stiffness[entry], d.damping[entry]);
+      const double scale =
+          force_per_length(along, {v[0][b] - v[0][a], v[1][b] - v[1][a], v[2][b] - v[2][a]},
+                           four.rest_length[entry % 4], four.stiffness[entry % 4], four.damping[entry % 4]);
       const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(a) + shift;
       for (std::size_t k = 0; k < 3; ++k) forces[k][i] = along[k] * scale;
     }
   }
 
-  /// What springs of one diagonal make of the sums. @pre from and to are at multiples of 4
-  static void sum_up(bool first, std::size_t offset, std::ptrdiff_t from, std::ptrdiff_t to,
-                     const ColumnArrays& forces, const ColumnArrays& sums) {
-    for (std::size_t k = 0; k < 3; ++k)
-      for (std::ptrdiff_t i = from; i < to; ++i) {
-        const double force = forces[k][i] - forces[k][i - static_cast<std::ptrdiff_t>(offset)];
-        sums[k][i] = first ? force : sums[k][i] + force;
-      }
-  }
-
   /// Equations 4 to 6. @pre from is a multiple of 4
   static bool finish(const VelocityUpdate* update, bool begun, std::size_t from, std::size_t to,
-                     const ColumnArrays& sums, std::ptrdiff_t shift, const NodeArrays& nodes) {
+                     const BlockForces& forces, const NodeArrays& nodes) {
     bool sound = true;
     for (std::size_t n = from; n < to; ++n) {
-      const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(n) + shift;
+      const std::ptrdiff_t i = forces.at(n);
       const auto component = [&](std::size_t k, double PaddedVector::* c) {
         double& force = nodes.forces[n].*c;
-        const double sum = begun ? force + sums[k][i] : sums[k][i];
+        double sum = 0;
+        for (std::size_t d = 0; d < forces.count; ++d) {
+          const double* const f = forces.columns[d][k];
+          const double both = f[i] - f[i - forces.offsets[d]];
+          sum = d == 0 ? both : sum + both;
+        }
+        if (begun) sum = force + sum;
         if (update == nullptr) {
           force = sum;
           return;
@@ -47,11 +45,11 @@ struct Loops {
         const double v = nodes.velocity_columns[k][n];
         const double next = update->next(sum, nodes.inverse_mass[n], v, update->acceleration.*c);
         sound &= std::abs(next) <= update->speed_limit;
+        nodes.next_velocity_columns[k][n] = next;
         if (nodes.padded) force = next;
         if (!nodes.moves) return;
         const double moved =
             nodes.position_columns[k][n] + (update->old_first ? v : next) * update->time_step;
-        nodes.next_velocity_columns[k][n] = next;
         nodes.next_position_columns[k][n] = moved;
         if (nodes.padded) nodes.next_positions[n].*c = moved;
       };
@@ -66,8 +64,8 @@ struct Loops {
 }  // namespace
 
 bool finish_portable(const VelocityUpdate* update, bool begun, std::size_t from, std::size_t to,
-                     const ColumnArrays& sums, std::ptrdiff_t shift, const NodeArrays& nodes) {
-  return Loops::finish(update, begun, from, to, sums, shift, nodes);
+                     const BlockForces& forces, const NodeArrays& nodes) {
+  return Loops::finish(update, begun, from, to, forces, nodes);
 }
 
 bool advance_block_portable(const SpringBlock& block, const VelocityUpdate* update, bool begun,

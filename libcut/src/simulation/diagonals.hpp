@@ -20,16 +20,17 @@ namespace cut {
   return (reach + 7) / 4 * 4;
 }
 
-/// So that columns are not all at the same place of a page, which caches go by.
+/// Whole cache lines, and so many that columns are not all at the same place of a page, which caches go by.
 [[nodiscard]] inline std::size_t column_stride(std::size_t size) { return (size + 511) / 512 * 512 + 56; }
 
 /// Columns side by side in `space`, which grows as needed.
 class ColumnSpace {
  public:
-  ColumnSpace(std::vector<double>& space, std::size_t triples, std::size_t size)
+  ColumnSpace(std::vector<CacheLine>& space, std::size_t triples, std::size_t size)
       : stride_(column_stride(size)) {
-    if (space.size() < 3 * triples * stride_) space.resize(3 * triples * stride_);
-    next_ = space.data();
+    const std::size_t lines = 3 * triples * stride_ / CacheLine{}.values.size();
+    if (space.size() < lines) space.resize(lines);
+    next_ = space.data()->values.data();
   }
   [[nodiscard]] ColumnArrays take() {
     const ColumnArrays result{next_, next_ + stride_, next_ + 2 * stride_};
@@ -42,51 +43,56 @@ class ColumnSpace {
   double* next_;
 };
 
-/// Sums and forces of a block: columns in which node n is at n + shift.
-struct BlockColumns {
-  std::ptrdiff_t shift;
-  ColumnArrays sums;
-  std::array<ColumnArrays, most_diagonals> forces;  ///< of the springs that start at a node, at that node
+/// Forces of springs that start at a node, at that node: columns in which node n is at n + shift.
+struct BlockForces {
+  std::ptrdiff_t shift = 0;
+  std::size_t count = 0;  ///< of diagonals
+  std::array<std::ptrdiff_t, most_diagonals> offsets{};
+  std::array<ColumnArrays, most_diagonals> columns{};
+  ColumnArrays given{};  ///< space for the forces that a node begins with
 
   [[nodiscard]] std::ptrdiff_t at(std::size_t node) const {
     return static_cast<std::ptrdiff_t>(node) + shift;
   }
 };
 
+/// Forces are found and summed up for so many nodes in turn, so that they are still in a near cache.
+inline constexpr std::size_t nodes_at_once = 1024;
+
 /// @tparam Loops  in diagonals.cpp and diagonals_avx2.cpp
 template <class Loops>
 bool advance_block(const SpringBlock& block, const VelocityUpdate* update, bool begun,
                    const NodeArrays& nodes) {
-  const std::size_t diagonals = block.diagonals.size(), reach = reach_of(block);
   const std::size_t first = block.first, last = block.last, end = (last + 3) / 4 * 4;
-  thread_local std::vector<double> own;
-  ColumnSpace space(own, 1 + diagonals, end - first + reach);
-  BlockColumns columns;
-  columns.shift = static_cast<std::ptrdiff_t>(reach) - static_cast<std::ptrdiff_t>(first);
-  columns.sums = space.take();
-  for (std::size_t k = 0; k < diagonals; ++k) {
-    columns.forces[k] = space.take();
+  const std::size_t reach = reach_of(block);
+  thread_local std::vector<CacheLine> own;
+  BlockForces forces;
+  forces.count = block.diagonals.size();
+  forces.shift = static_cast<std::ptrdiff_t>(reach) - static_cast<std::ptrdiff_t>(first);
+  ColumnSpace space(own, forces.count + 1, end - first + reach);
+  forces.given = space.take();
+  for (std::size_t k = 0; k < forces.count; ++k) {
+    forces.offsets[k] = block.diagonals[k].offset;
+    forces.columns[k] = space.take();
     // No spring comes from before node 0.
     if (first < block.diagonals[k].offset)
-      for (double* column : columns.forces[k]) std::fill_n(column, columns.at(0), 0.0);
+      for (double* column : forces.columns[k]) std::fill_n(column, forces.at(0), 0.0);
   }
   bool sound = true;
-  constexpr std::size_t piece = 1024;  // columns stay in the nearest cache from loop to loop
-  for (std::size_t from = first; from < end; from += piece) {
-    const std::size_t to = std::min(from + piece, end);
-    for (std::size_t k = 0; k < diagonals; ++k) {
+  for (std::size_t from = first; from < end; from += nodes_at_once) {
+    const std::size_t to = std::min(from + nodes_at_once, end);
+    for (std::size_t k = 0; k < forces.count; ++k) {
       const SpringDiagonal& d = block.diagonals[k];
-      Loops::find_forces(d, from == first ? d.first : from, to, nodes, columns.shift, columns.forces[k]);
-      Loops::sum_up(k == 0, d.offset, columns.at(from), columns.at(to), columns.forces[k], columns.sums);
+      Loops::find_forces(d, from == first ? d.first : from, to, nodes, forces.shift, forces.columns[k]);
     }
-    sound &= Loops::finish(update, begun, from, std::min(to, last), columns.sums, columns.shift, nodes);
+    sound &= Loops::finish(update, begun, from, std::min(to, last), forces, nodes);
   }
   return sound;
 }
 
 /// `Loops::finish` in plain C++, for what is left of four nodes.
 bool finish_portable(const VelocityUpdate* update, bool begun, std::size_t from, std::size_t to,
-                     const ColumnArrays& sums, std::ptrdiff_t shift, const NodeArrays& nodes);
+                     const BlockForces& forces, const NodeArrays& nodes);
 bool advance_block_portable(const SpringBlock& block, const VelocityUpdate* update, bool begun,
                             const NodeArrays& nodes);
 bool advance_block_avx2(const SpringBlock& block, const VelocityUpdate* update, bool begun,

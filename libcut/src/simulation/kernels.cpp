@@ -31,22 +31,24 @@ void add_spring_forces(const SpringArrays& springs, const PaddedVector* position
   }
 }
 
-bool replace_by_velocities(const VelocityUpdate& update, std::span<const double> inverse_mass,
-                           const PaddedVector* velocities, PaddedVector* forces) {
+bool advance_nodes(const VelocityUpdate& update, const NodeArrays& nodes, std::size_t first, std::size_t last,
+                   std::span<const std::uint32_t> others) {
   bool sound = true;
-  const auto next = [&](double force, double inverse, double velocity, double acceleration) {
-    const double result = update.next(force, inverse, velocity, acceleration);
-    sound &= std::abs(result) <= update.speed_limit;
-    return result;
+  const auto advance = [&](std::size_t n) {
+    const auto component = [&](double PaddedVector::* c) {
+      const double v = nodes.velocities[n].*c;
+      const double next = update.next(nodes.forces[n].*c, nodes.inverse_mass[n], v, update.acceleration.*c);
+      sound &= std::abs(next) <= update.speed_limit;
+      nodes.forces[n].*c = next;
+      if (nodes.moves)
+        nodes.next_positions[n].*c = nodes.positions[n].*c + (update.old_first ? v : next) * update.time_step;
+    };
+    component(&PaddedVector::x);
+    component(&PaddedVector::y);
+    component(&PaddedVector::z);
   };
-  for (std::size_t n = 0; n < inverse_mass.size(); ++n) {
-    const double inverse = inverse_mass[n];
-    const PaddedVector& v = velocities[n];
-    PaddedVector& f = forces[n];
-    f.x = next(f.x, inverse, v.x, update.acceleration.x);
-    f.y = next(f.y, inverse, v.y, update.acceleration.y);
-    f.z = next(f.z, inverse, v.z, update.acceleration.z);
-  }
+  for (std::size_t n = first; n < last; ++n) advance(n);
+  for (const std::uint32_t n : others) advance(n);
   return sound;
 }
 
@@ -76,7 +78,7 @@ void from_columns(const ColumnArrays& columns, std::size_t first, std::size_t la
 const Kernels& portable_kernels() {
   static constexpr Kernels kernels{add_spring_forces<true>,
                                    add_spring_forces<false>,
-                                   replace_by_velocities,
+                                   advance_nodes,
                                    move,
                                    advance_block_portable,
                                    to_columns,

@@ -78,15 +78,16 @@ struct Kernels {
   /// The same for the first node of each spring only.
   void (*add_forces_at_first_node)(const SpringArrays& springs, const PaddedVector* positions,
                                    const PaddedVector* velocities, PaddedVector* forces);
-  /// Equations 4 and 5: replaces each force by the node's next velocity. Returns whether all of them are
-  /// within the speed limit, which none that is NaN or infinite is.
-  bool (*replace_by_velocities)(const VelocityUpdate& update, std::span<const double> inverse_mass,
-                                const PaddedVector* velocities, PaddedVector* forces);
+  /// Equations 4 to 6 in padded vectors, for nodes [first, last) and then for others: replaces each force by
+  /// the node's next velocity, and finds next positions if they are wanted. Returns whether all velocities
+  /// are within the speed limit, which none that is NaN or infinite is.
+  bool (*advance_nodes)(const VelocityUpdate& update, const NodeArrays& nodes, std::size_t first,
+                        std::size_t last, std::span<const std::uint32_t> others);
   /// Equation 6: from `positions` to `moved`, which may be the same.
   void (*move)(double time_step, std::span<const PaddedVector> positions, const PaddedVector* velocities,
                PaddedVector* moved);
   /// All equations for the nodes of a block with diagonals, but not for copies. Without an update adds the
-  /// forces of springs in diagonals to `forces`. Returns what `replace_by_velocities` does.
+  /// forces of springs in diagonals to `forces`. Returns what `advance_nodes` does.
   /// @param begun  whether there is something in `forces` to begin with
   bool (*advance_block)(const SpringBlock& block, const VelocityUpdate* update, bool begun,
                         const NodeArrays& nodes);

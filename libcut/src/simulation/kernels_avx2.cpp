@@ -10,46 +10,50 @@
 namespace cut {
 namespace {
 
+SNIP_AVX2 inline __m256d between(const PaddedVector* vectors, std::size_t a, std::size_t b) {
+  return _mm256_sub_pd(load(vectors[b]), load(vectors[a]));
+}
+
 template <bool BothNodes>
 SNIP_AVX2 void add_spring_forces(const SpringArrays& springs, const PaddedVector* positions,
                                  const PaddedVector* velocities, PaddedVector* forces) {
   for (std::size_t i = 0; i < springs.nodes.size(); i += 4) {
     const auto* const nodes = &springs.nodes[i];
-    const auto along = [&](std::size_t k) SNIP_AVX2 {
-      return _mm256_sub_pd(load(positions[nodes[k][1]]), load(positions[nodes[k][0]]));
-    };
-    const auto rate_of = [&](std::size_t k) SNIP_AVX2 {
-      return _mm256_sub_pd(load(velocities[nodes[k][1]]), load(velocities[nodes[k][0]]));
-    };
-    const __m256d d0 = along(0), d1 = along(1), d2 = along(2), d3 = along(3);
-    const Columns rates = columns(rate_of(0), rate_of(1), rate_of(2), rate_of(3));
+    // Each index is read and multiplied once: a good part of the loop are indices.
+    const std::size_t a0 = nodes[0][0], a1 = nodes[1][0], a2 = nodes[2][0], a3 = nodes[3][0];
+    const std::size_t b0 = nodes[0][1], b1 = nodes[1][1], b2 = nodes[2][1], b3 = nodes[3][1];
+    const __m256d d0 = between(positions, a0, b0), d1 = between(positions, a1, b1),
+                  d2 = between(positions, a2, b2), d3 = between(positions, a3, b3);
+    const Columns rates = columns(between(velocities, a0, b0), between(velocities, a1, b1),
+                                  between(velocities, a2, b2), between(velocities, a3, b3));
     const __m256d scale =
         forces_per_length(columns(d0, d1, d2, d3), rates,
                           {&springs.rest_length[i], &springs.stiffness[i], &springs.damping[i]});
-    const auto add = [&](std::size_t k, __m256d force) SNIP_AVX2 {
-      PaddedVector& a = forces[nodes[k][0]];
-      store(a, _mm256_add_pd(load(a), force));
-      if constexpr (!BothNodes) return;
-      PaddedVector& b = forces[nodes[k][1]];
-      store(b, _mm256_sub_pd(load(b), force));
+    const auto add = [&](std::size_t a, std::size_t b, __m256d force) SNIP_AVX2 {
+      store(forces[a], _mm256_add_pd(load(forces[a]), force));
+      if constexpr (BothNodes) store(forces[b], _mm256_sub_pd(load(forces[b]), force));
     };
-    add(0, _mm256_mul_pd(d0, _mm256_permute4x64_pd(scale, 0x00)));
-    add(1, _mm256_mul_pd(d1, _mm256_permute4x64_pd(scale, 0x55)));
-    add(2, _mm256_mul_pd(d2, _mm256_permute4x64_pd(scale, 0xaa)));
-    add(3, _mm256_mul_pd(d3, _mm256_permute4x64_pd(scale, 0xff)));
+    add(a0, b0, _mm256_mul_pd(d0, _mm256_permute4x64_pd(scale, 0x00)));
+    add(a1, b1, _mm256_mul_pd(d1, _mm256_permute4x64_pd(scale, 0x55)));
+    add(a2, b2, _mm256_mul_pd(d2, _mm256_permute4x64_pd(scale, 0xaa)));
+    add(a3, b3, _mm256_mul_pd(d3, _mm256_permute4x64_pd(scale, 0xff)));
   }
 }
 
-SNIP_AVX2 bool replace_by_velocities(const VelocityUpdate& update, std::span<const double> inverse_mass,
-                                     const PaddedVector* velocities, PaddedVector* forces) {
+SNIP_AVX2 bool advance_nodes(const VelocityUpdate& update, const NodeArrays& nodes, std::size_t first,
+                             std::size_t last, std::span<const std::uint32_t> others) {
   const __m256d time_step = _mm256_set1_pd(update.time_step);
   const __m256d acceleration = load(update.acceleration);
   const __m256d drag = _mm256_set1_pd(update.drag);
   const __m256d limit = _mm256_set1_pd(update.speed_limit);
   const __m256d zero = _mm256_setzero_pd();
+  const bool moves = nodes.moves, old_first = update.old_first;
+  const PaddedVector *const positions = nodes.positions, *const velocities = nodes.velocities;
+  PaddedVector *const forces = nodes.forces, *const next_positions = nodes.next_positions;
+  const double* const inverse_mass = nodes.inverse_mass;
   __m256d sound = _mm256_cmp_pd(zero, zero, _CMP_EQ_OQ);
-  for (std::size_t n = 0; n < inverse_mass.size(); ++n) {
-    const __m256d inverse = _mm256_broadcast_sd(&inverse_mass[n]);
+  const auto advance = [&](std::size_t n) SNIP_AVX2 {
+    const __m256d inverse = _mm256_broadcast_sd(inverse_mass + n);
     const __m256d v = load(velocities[n]);
     const __m256d a = _mm256_add_pd(_mm256_mul_pd(load(forces[n]), inverse),
                                     _mm256_sub_pd(acceleration, _mm256_mul_pd(drag, v)));
@@ -57,7 +61,12 @@ SNIP_AVX2 bool replace_by_velocities(const VelocityUpdate& update, std::span<con
     const __m256d next = _mm256_blendv_pd(v, _mm256_add_pd(v, _mm256_mul_pd(a, time_step)), free);
     sound = _mm256_and_pd(sound, _mm256_cmp_pd(amount(next), limit, _CMP_LE_OQ));
     store(forces[n], next);
-  }
+    if (moves)
+      store(next_positions[n],
+            _mm256_add_pd(load(positions[n]), _mm256_mul_pd(old_first ? v : next, time_step)));
+  };
+  for (std::size_t n = first; n < last; ++n) advance(n);
+  for (const std::uint32_t n : others) advance(n);
   return _mm256_movemask_pd(sound) == 0b1111;
 }
 
@@ -92,7 +101,7 @@ SNIP_AVX2 void from_columns(const ColumnArrays& from, std::size_t first, std::si
 const Kernels& best_kernels() {
   static constexpr Kernels kernels{add_spring_forces<true>,
                                    add_spring_forces<false>,
-                                   replace_by_velocities,
+                                   advance_nodes,
                                    move,
                                    advance_block_avx2,
                                    to_columns,

@@ -24,11 +24,17 @@ std::size_t block_size(std::size_t nodes) {
   return std::max<std::size_t>(4, ((nodes + count - 1) / count + 3) / 4 * 4);
 }
 
-template <class Springs>
-void write(Springs& to, std::size_t entry, double rest_length, double stiffness, double damping) {
+void write(SpringArrays& to, std::size_t entry, double rest_length, double stiffness, double damping) {
   to.rest_length[entry] = rest_length;
   to.stiffness[entry] = stiffness;
   to.damping[entry] = damping;
+}
+
+void write(SpringDiagonal& to, std::size_t entry, double rest_length, double stiffness, double damping) {
+  FourSprings& four = to.springs[entry / 4];
+  four.rest_length[entry % 4] = rest_length;
+  four.stiffness[entry % 4] = stiffness;
+  four.damping[entry % 4] = damping;
 }
 
 /// A free entry; four new ones when there is none, since kernels take four springs at once.
@@ -86,9 +92,7 @@ void SpringBlocks::reset(std::size_t nodes, std::vector<std::uint32_t> offsets) 
       d.offset = offset;
       d.first = block.first < offset ? 0 : (block.first - offset) / 4 * 4;
       const std::size_t entries = (block.last - d.first + 3) / 4 * 4;
-      d.rest_length.resize(entries);
-      d.stiffness.resize(entries);
-      d.damping.resize(entries);
+      d.springs.resize(entries / 4);
       d.used.resize(entries);
     }
   }

@@ -69,17 +69,6 @@ std::optional<Error> fault_of(const Surroundings& s, double time_step, double wa
   return std::nullopt;
 }
 
-/// Equations 4 to 6 for `count` nodes in padded vectors. Returns what `replace_by_velocities` does.
-bool advance(const Kernels& kernels, const VelocityUpdate& update, std::size_t first, std::size_t count,
-             const NodeArrays& nodes) {
-  const bool sound = kernels.replace_by_velocities(update, {nodes.inverse_mass + first, count},
-                                                   nodes.velocities + first, nodes.forces + first);
-  if (nodes.moves)
-    kernels.move(update.time_step, {nodes.positions + first, count},
-                 (update.old_first ? nodes.velocities : nodes.forces) + first, nodes.next_positions + first);
-  return sound;
-}
-
 }  // namespace
 
 std::optional<Error> Simulation::step(HybridMesh& mesh, double time_step, std::size_t count) {
@@ -229,14 +218,11 @@ bool Simulation::go_through_blocks(const HybridMesh& mesh, const VelocityUpdate*
       nodes.forces[copy] = given.empty() ? PaddedVector{} : given[copy];
     kernels.add_spring_forces(block.inner, nodes.positions, nodes.velocities, nodes.forces);
     kernels.add_forces_at_first_node(block.outer, nodes.positions, nodes.velocities, nodes.forces);
-    bool sound = true;
-    if (!block.diagonals.empty()) {
-      sound = kernels.advance_block(block, update, begun, nodes);
-    } else if (update) {
-      sound = advance(kernels, *update, block.first, block.last - block.first, nodes);
-    }
+    const bool in_columns = !block.diagonals.empty();
+    bool sound = !in_columns || kernels.advance_block(block, update, begun, nodes);
     if (update)
-      for (const std::uint32_t copy : block.copies) sound &= advance(kernels, *update, copy, 1, nodes);
+      sound &= kernels.advance_nodes(*update, nodes, in_columns ? block.last : block.first, block.last,
+                                     block.copies);
     sound_[b] = sound ? 1 : 0;
   });
   return std::find(sound_.begin(), sound_.end(), 0) == sound_.end();
