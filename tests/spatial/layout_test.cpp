@@ -25,7 +25,7 @@ void check() {
       CHECK(boxes >= sizeof(typename Leaf::FrameType) + rows * capacity);
       CHECK(values >= boxes + rows * capacity * sizeof(T));
       CHECK(ids >= values + capacity * sizeof(Value));
-      CHECK(Leaf::bytes(capacity, rows) >= ids + capacity * sizeof(std::uint32_t));
+      CHECK(Leaf::bytes(capacity, rows, true) >= ids + capacity * sizeof(std::uint32_t));
     }
   }
 }

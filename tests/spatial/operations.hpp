@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <map>
 #include <spatial/bounding_box_ternary_tree.hpp>
 #include <vector>
 
@@ -75,6 +76,8 @@ class Run {
     switch (bytes.next() % 16) {
       default:
         return insert(box<T, D>(bytes));
+      case 7:
+        return reload();
       case 8:
         return erase(bytes.next());
       case 9:
@@ -136,6 +139,20 @@ class Run {
     }
     return valid == added && added + (many.size() > 3 ? 1 : 0) == many.size() ? nullptr
                                                                               : "bulk insert counts";
+  }
+  /// All elements are loaded into an empty tree, without asking for handles: so it has no slots.
+  const char* reload() {
+    std::vector<std::pair<spatial::Box<T, D>, int>> many;
+    for (const Element& e : elements_) many.push_back({e.box, e.value});
+    tree_.clear();
+    if (tree_.insert(many.begin(), many.end()) != many.size()) return "loading counts";
+    std::map<int, spatial::Handle> handles;
+    for (auto i = tree_.begin(); i != tree_.end(); ++i) handles[*i] = i.handle();
+    for (Element& e : elements_) {
+      if (tree_.contains(e.handle)) return "clear makes stale";
+      e.handle = handles[e.value];
+    }
+    return nullptr;
   }
   const char* query(const spatial::Box<T, D>& q) {
     using Box = spatial::Box<T, D>;

@@ -167,10 +167,11 @@ class BoundingBoxTernaryTree : public TreeQueries<Value, T, D, BoxOf, Equal, All
     }
     const size_type added = entries.size();
     if (values.size() >= size()) {
-      core_.insert_all(entries, values);
-      for (size_type id = first_slot; id < core_.slot_capacity(); ++id) {
+      constexpr bool wants_handles = !std::is_same_v<O, detail::NoHandles>;
+      core_.insert_all(entries, values, wants_handles);
+      for (size_type id = first_slot; wants_handles && id < core_.slot_capacity(); ++id) {
         const auto slot = static_cast<std::uint32_t>(id);
-        *handles++ = core_.slot(slot).leaf == Core::none ? Handle{} : handle_of(slot);
+        *handles++ = core_.place(slot).leaf == Core::none ? Handle{} : handle_of(slot);
       }
     } else {
       const std::vector<std::uint32_t> slots = core_.insert_each(entries, values);
@@ -216,7 +217,7 @@ class BoundingBoxTernaryTree : public TreeQueries<Value, T, D, BoxOf, Equal, All
   size_type erase_if(const P& predicate) {
     std::vector<std::uint32_t> found;
     detail::search(core_, detail::bind<T, D>(predicate), [&](const Leaf& leaf, std::uint32_t at) {
-      found.push_back(leaf.ids()[at]);
+      found.push_back(leaf.id(at));
       return true;
     });
     for (const std::uint32_t id : found) core_.erase(id);

@@ -39,8 +39,8 @@ class QueryRange {
     friend bool operator==(const Iterator& i, std::default_sentinel_t) { return i.range_ == nullptr; }
 
     [[nodiscard]] Handle handle() const {
-      const auto id = range_->cursor_.leaf().ids()[range_->cursor_.position()];
-      return {id, range_->core_->slot(id).generation};
+      const auto id = range_->cursor_.leaf().id(range_->cursor_.position());
+      return {id, range_->core_->generation(id)};
     }
     [[nodiscard]] auto box() const { return range_->cursor_.leaf().box(range_->cursor_.position()); }
     /// Of ordered queries.
@@ -91,8 +91,8 @@ class TreeIterator {
   }
 
   [[nodiscard]] Handle handle() const {
-    const auto id = core_->leaf(leaf_).ids()[position_];
-    return {id, core_->slot(id).generation};
+    const auto id = core_->leaf(leaf_).id(position_);
+    return {id, core_->generation(id)};
   }
   [[nodiscard]] auto box() const { return core_->leaf(leaf_).box(position_); }
 

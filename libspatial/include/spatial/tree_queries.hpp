@@ -120,7 +120,7 @@ class TreeQueries {
     detail::search(core_, detail::bind<T, D>(predicate), [&](const Leaf& leaf, std::uint32_t at) {
       ++found;
       return detail::give<Value>(sink, detail::unwrap(leaf.values()[at]),
-                                 [&] { return handle_of(leaf.ids()[at]); });
+                                 [&] { return handle_of(leaf.id(at)); });
     });
     return found;
   }
@@ -159,8 +159,8 @@ class TreeQueries {
     detail::self_pairs(core_, [&](const Leaf& a, std::uint32_t i, const Leaf& b, std::uint32_t j) {
       ++found;
       return detail::give_pair<Value, Value>(
-          visitor, detail::unwrap(a.values()[i]), [&] { return handle_of(a.ids()[i]); },
-          detail::unwrap(b.values()[j]), [&] { return handle_of(b.ids()[j]); });
+          visitor, detail::unwrap(a.values()[i]), [&] { return handle_of(a.id(i)); },
+          detail::unwrap(b.values()[j]), [&] { return handle_of(b.id(j)); });
     });
     return found;
   }
@@ -172,8 +172,8 @@ class TreeQueries {
                        [&](const Leaf& a, std::uint32_t i, const auto& b, std::uint32_t j) {
                          ++found;
                          return detail::give_pair<Value, V2>(
-                             visitor, detail::unwrap(a.values()[i]), [&] { return handle_of(a.ids()[i]); },
-                             detail::unwrap(b.values()[j]), [&] { return other.handle_of(b.ids()[j]); });
+                             visitor, detail::unwrap(a.values()[i]), [&] { return handle_of(a.id(i)); },
+                             detail::unwrap(b.values()[j]), [&] { return other.handle_of(b.id(j)); });
                        });
     return found;
   }
@@ -207,7 +207,7 @@ class TreeQueries {
       : core_(allocator), box_of_(std::move(box_of)), equal_(std::move(equal)) {}
   ~TreeQueries() = default;
 
-  [[nodiscard]] Handle handle_of(std::uint32_t slot) const { return {slot, core_.slot(slot).generation}; }
+  [[nodiscard]] Handle handle_of(std::uint32_t slot) const { return {slot, core_.generation(slot)}; }
 
  private:
   template <class V2, class T2, std::size_t D2, class B2, class E2, class A2>
@@ -218,8 +218,7 @@ class TreeQueries {
   void find_equal(const Value& value, Visit&& visit) const {
     const box_type box = box_of_(value);
     detail::search(core_, detail::bind<T, D>(covers(box)), [&](const Leaf& leaf, std::uint32_t at) {
-      return !(leaf.box(at) == box && equal_(detail::unwrap(leaf.values()[at]), value)) ||
-             visit(leaf.ids()[at]);
+      return !(leaf.box(at) == box && equal_(detail::unwrap(leaf.values()[at]), value)) || visit(leaf.id(at));
     });
   }
 
@@ -231,7 +230,7 @@ class TreeQueries {
     const auto hand_over = [&](const Leaf& leaf, std::uint32_t at, auto distance) {
       ++found;
       return detail::give<Value>(
-          sink, detail::unwrap(leaf.values()[at]), [&] { return handle_of(leaf.ids()[at]); }, distance);
+          sink, detail::unwrap(leaf.values()[at]), [&] { return handle_of(leaf.id(at)); }, distance);
     };
     const size_type limit = detail::count_limit(predicate);
     if (limit < size()) {

@@ -36,7 +36,7 @@ template <class Tree>
 Slot append(Tree& tree, std::uint32_t index, const TreeBox<Tree>& box, std::uint32_t id) {
   typename Tree::LeafType& target = tree.leaf(index);
   const bool widen = target.is_flat() && !is_point(box);
-  if (target.count == target.capacity || widen) {
+  if (target.count == target.capacity || widen || !target.has_ids) {
     tree.enlarge_leaf(
         index, target.count == target.capacity ? Tree::capacity_for(target.count + 1) : target.capacity,
         widen ? 2 * Tree::dimension : target.rows);

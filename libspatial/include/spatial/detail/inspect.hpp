@@ -63,12 +63,13 @@ std::vector<const char*> validate(const Core& core) {
       require(leaf.loose > 0 ? encloses(tight, bounds) : tight == bounds, "a leaf's tight box is tight");
       for (std::uint32_t i = 0; i < leaf.count; ++i) {
         ++elements;
-        const std::uint32_t id = leaf.ids()[i];
+        const std::uint32_t id = leaf.id(i);
         require(is_valid(leaf.box(i)), "every box is valid");
         require(id < seen.size() && !seen[id], "every slot is used once");
         if (id >= seen.size()) continue;
         seen[id] = true;
-        require(core.slot(id).leaf == ref.index() && core.slot(id).position == i, "a slot knows its element");
+        const auto where = core.place(id);
+        require(where.leaf == ref.index() && where.position == i, "a slot knows its element");
         require(is_root || core.link_cell(parent, side).holds(leaf.box(i)),
                 "an element lies in its leaf's volume");
       }
@@ -95,7 +96,7 @@ std::vector<const char*> validate(const Core& core) {
   });
   require(elements == core.size(), "size is the number of elements");
   for (std::uint32_t id = 0; id < seen.size(); ++id) {
-    require(seen[id] == (core.slot(id).leaf != Core::none), "a free slot has no element");
+    require(seen[id] == (core.place(id).leaf != Core::none), "a free slot has no element");
   }
   return complaints;
 }
@@ -111,7 +112,7 @@ TreeStatistics statistics(const Core& core) {
       ++result.leaves;
       result.depth = depth > result.depth ? depth : result.depth;
       result.largest_leaf = leaf.count > result.largest_leaf ? leaf.count : result.largest_leaf;
-      result.bytes += leaf.bytes(leaf.capacity, leaf.rows);
+      result.bytes += leaf.bytes(leaf.capacity, leaf.rows, leaf.has_ids);
     } else {
       ++result.nodes;
     }

@@ -1,8 +1,10 @@
 /// @file
 /// The elements of one leaf (§5.1), packed in one block of memory: a frame and the levels of all boxes
-/// (levels.hpp), which a query looks at first; then the boxes, the values, and the slot indices. A leaf of
-/// points has each coordinate once.
+/// (levels.hpp), which a query looks at first; then the boxes, the values, and the ids. A leaf of points has
+/// each coordinate once; one that was loaded at once has no ids but consecutive ones, and a bit for each that
+/// tells whether its element is still there.
 #pragma once
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -28,10 +30,12 @@ struct Leaf {
   std::uint32_t parent = no_parent;  ///< node; the next free leaf while this one is free
   std::uint32_t loose = 0;           ///< erasures since the tight box was last computed from all elements
   std::uint32_t beside = 0;          ///< boxes written since the frame was made that it does not hold
+  std::uint32_t first = 0;           ///< without ids: the first element's id, also after the leaf is gone
   std::uint8_t side = 0;             ///< which child of the parent
   std::uint8_t frame_age = 0;        ///< splits since the frame was made
   bool indivisible = false;          ///< no split can separate what is here, unless the tight box grows
   std::uint8_t rows = 2 * D;         ///< D if all boxes here are points, and were when the block was made
+  bool has_ids = true;
 
   static constexpr std::size_t alignment = alignof(Value) > 16 ? alignof(Value) : 16;
   static_assert(alignof(T) <= level_block);
@@ -41,7 +45,7 @@ struct Leaf {
   }
   static constexpr std::size_t levels_offset() { return up_to(sizeof(FrameType), level_block); }
   static constexpr std::size_t boxes_offset(std::size_t cap, std::size_t row_count) {
-    return levels_offset() + up_to(cap, level_block) * row_count;
+    return up_to(levels_offset() + cap * row_count, alignof(T));
   }
   static constexpr std::size_t values_offset(std::size_t cap, std::size_t row_count) {
     return up_to(boxes_offset(cap, row_count) + row_count * cap * sizeof(T), alignof(Value));
@@ -49,8 +53,14 @@ struct Leaf {
   static constexpr std::size_t ids_offset(std::size_t cap, std::size_t row_count) {
     return up_to(values_offset(cap, row_count) + cap * sizeof(Value), alignof(std::uint32_t));
   }
-  static constexpr std::size_t bytes(std::size_t cap, std::size_t row_count) {
-    return up_to(ids_offset(cap, row_count) + cap * sizeof(std::uint32_t), alignment);
+  /// Words of bits, in place of the ids.
+  static constexpr std::uint32_t alive_words = 3;
+  static constexpr std::uint32_t most_without_ids = 32 * alive_words;
+  static constexpr std::size_t bytes(std::size_t cap, std::size_t row_count, bool with_ids) {
+    const std::size_t end =
+        ids_offset(cap, row_count) + (with_ids ? cap : alive_words) * sizeof(std::uint32_t);
+    const std::size_t readable = levels_offset() + cap * row_count + level_block;
+    return up_to(end > readable ? end : readable, alignment);
   }
 
   /// True if only boxes with min == max have room here.
@@ -59,12 +69,51 @@ struct Leaf {
   [[nodiscard]] Level* levels(std::size_t begin) const {  ///< @pre begin is a multiple of level_block
     return reinterpret_cast<Level*>(data) + levels_offset() + begin * rows;
   }
-  /// The levels of one element, level_block apart.
+  /// The levels of one element, level_stride() apart.
   [[nodiscard]] Level* level_column(std::size_t at) const {
     return levels(at / level_block * level_block) + at % level_block;
   }
+  /// From one row of levels to the next, in the block of an element. The last block is as wide as it needs to
+  /// be.
+  static constexpr std::size_t level_stride(std::size_t at, std::size_t cap) {
+    const std::size_t room = cap - at / level_block * level_block;
+    return room < level_block ? room : level_block;
+  }
+  /// @pre has_ids; else the bits
   [[nodiscard]] std::uint32_t* ids() const {
     return reinterpret_cast<std::uint32_t*>(data + ids_offset(capacity, rows));
+  }
+  [[nodiscard]] std::uint32_t id(std::uint32_t at) const {
+    if (has_ids) return ids()[at];
+    const std::uint32_t* alive = ids();
+    std::uint32_t word = 0;
+    for (; at >= count_bits(alive[word]); ++word) at -= count_bits(alive[word]);
+    std::uint32_t bits = alive[word];
+    for (; at > 0; --at) bits &= bits - 1;
+    return first + 32 * word + static_cast<std::uint32_t>(std::countr_zero(bits));
+  }
+  /// Where the element with this id is; `capacity` if it is not here. @pre !has_ids, id >= first
+  [[nodiscard]] std::uint32_t position_of(std::uint32_t id) const {
+    const std::uint32_t offset = id - first;
+    if (data == nullptr || offset >= capacity) return capacity;
+    const std::uint32_t* alive = ids();
+    const std::uint32_t bit = 1u << (offset % 32);
+    if ((alive[offset / 32] & bit) == 0) return capacity;
+    std::uint32_t position = count_bits(alive[offset / 32] & (bit - 1));
+    for (std::uint32_t word = 0; word < offset / 32; ++word) position += count_bits(alive[word]);
+    return position;
+  }
+  /// All elements are there. @pre !has_ids
+  void set_all_alive() {
+    for (std::uint32_t word = 0; word < alive_words; ++word) {
+      const std::uint32_t left = count > 32 * word ? count - 32 * word : 0;
+      ids()[word] = left >= 32 ? 0xffffffffu : (1u << left) - 1;
+    }
+  }
+  /// @pre !has_ids
+  void set_gone(std::uint32_t id) { ids()[(id - first) / 32] &= ~(1u << (id - first) % 32); }
+  static constexpr std::uint32_t count_bits(std::uint32_t bits) {
+    return static_cast<std::uint32_t>(std::popcount(bits));
   }
   [[nodiscard]] Value* values() const {
     return reinterpret_cast<Value*>(data + values_offset(capacity, rows));
@@ -118,12 +167,13 @@ struct Leaf {
   }
   void set_levels(std::size_t at, const Box<T, D>& box) {
     const LevelBounds<D> own = frame().bounds(box.min, box.max);
+    const std::size_t stride = level_stride(at, capacity);
     Level* to = level_column(at);
-    Level* high = to + (rows - D) * level_block;
+    Level* high = to + (rows - D) * stride;
     bool is_beside = false;
     for (std::size_t a = 0; a < D; ++a) {
-      to[a * level_block] = own.low[a];
-      high[a * level_block] = own.high[a];
+      to[a * stride] = own.low[a];
+      high[a * stride] = own.high[a];
       is_beside |= own.low[a] == -128 || own.high[a] == 127;
     }
     beside += static_cast<std::uint32_t>(is_beside);
@@ -137,12 +187,14 @@ struct Leaf {
     Value* values;
     std::uint32_t* ids;
     std::size_t rows;
+    std::size_t capacity;
     explicit Arrays(const Leaf& leaf)
         : levels(leaf.levels(0)),
           coordinates(leaf.coordinates(0)),
           values(leaf.values()),
           ids(leaf.ids()),
-          rows(leaf.rows) {}
+          rows(leaf.rows),
+          capacity(leaf.capacity) {}
     /// The levels are copied where there are as many rows, and mean something if the frame is the same.
     /// @pre there are as many rows, or those of the source are flat
     void copy_box(const Arrays& source, std::size_t from, std::size_t to) const {
@@ -160,18 +212,31 @@ struct Leaf {
       std::memcpy(coordinates + to * N, source.coordinates + from * N, N * sizeof(T));
       const Level* old = source.levels + from / level_block * level_block * N + from % level_block;
       Level* fresh = levels + to / level_block * level_block * N + to % level_block;
-      for (std::size_t r = 0; r < N; ++r) fresh[r * level_block] = old[r * level_block];
+      const std::size_t old_stride = level_stride(from, source.capacity);
+      const std::size_t stride = level_stride(to, capacity);
+      for (std::size_t r = 0; r < N; ++r) fresh[r * stride] = old[r * old_stride];
     }
   };
-  /// All boxes, levels and slot indices of another leaf; its frame, unless only this one has room for boxes.
-  /// @pre there is room, and none here
+  /// All boxes, levels and ids of another leaf; its frame, unless only this one has room for boxes.
+  /// @pre there is room, and none here; this one has ids, or both have none
   void copy_all(const Leaf& from) {
     if (from.count == 0) return;
     inherit_frame(from);
     frame_age = from.frame_age;
-    std::memcpy(ids(), from.ids(), from.count * sizeof(std::uint32_t));
+    if (has_ids == from.has_ids) {
+      std::memcpy(ids(), from.ids(), (has_ids ? from.count : alive_words) * sizeof(std::uint32_t));
+    } else {
+      for (std::uint32_t i = 0; i < from.count; ++i) ids()[i] = from.id(i);
+    }
     if (rows == from.rows) {
-      std::memcpy(levels(0), from.levels(0), up_to(from.count, level_block) * rows);
+      for (std::size_t at = 0; at < from.count; at += level_block) {
+        const std::size_t old_stride = level_stride(at, from.capacity);
+        const std::size_t stride = level_stride(at, capacity);
+        for (std::size_t r = 0; r < rows; ++r) {
+          std::memcpy(levels(at) + r * stride, from.levels(at) + r * old_stride,
+                      old_stride < stride ? old_stride : stride);
+        }
+      }
       std::memcpy(coordinates(0), from.coordinates(0), from.count * rows * sizeof(T));
     } else {
       for (std::size_t i = 0; i < from.count; ++i) set_box(i, from.box(i));
@@ -193,24 +258,25 @@ struct Leaf {
     return reaching(begin, n, frame().bounds(low, high));
   }
   [[nodiscard]] Sieved reaching(std::uint32_t begin, std::uint32_t n, const LevelBounds<D>& q) const {
-    return is_flat() ? sieve<D>(levels(begin), D, 0, 0, n, q.high, q.low)
-                     : sieve<D>(levels(begin), 2 * D, 0, D, n, q.high, q.low);
+    return is_flat() ? sieve<D>(levels(begin), D, 0, 0, n, capacity - begin, q.high, q.low)
+                     : sieve<D>(levels(begin), 2 * D, 0, D, n, capacity - begin, q.high, q.low);
   }
   /// Those with low <= min and max <= high.
   template <class X>
   [[nodiscard]] Sieved covered(std::uint32_t begin, std::uint32_t n, const X& low, const X& high) const {
     const LevelBounds<D> q = frame().bounds(low, high);
-    return is_flat() ? sieve<D>(levels(begin), D, 0, 0, n, q.high, q.low)
-                     : sieve<D>(levels(begin), 2 * D, D, 0, n, q.high, q.low);
+    return is_flat() ? sieve<D>(levels(begin), D, 0, 0, n, capacity - begin, q.high, q.low)
+                     : sieve<D>(levels(begin), 2 * D, D, 0, n, capacity - begin, q.high, q.low);
   }
   /// The levels of one element.
   [[nodiscard]] LevelBounds<D> own_levels(std::size_t at) const {
+    const std::size_t stride = level_stride(at, capacity);
     const Level* from = level_column(at);
-    const Level* high = from + (rows - D) * level_block;
+    const Level* high = from + (rows - D) * stride;
     LevelBounds<D> result;
     for (std::size_t a = 0; a < D; ++a) {
-      result.low[a] = from[a * level_block];
-      result.high[a] = high[a * level_block];
+      result.low[a] = from[a * stride];
+      result.high[a] = high[a * stride];
     }
     return result;
   }
@@ -233,16 +299,17 @@ struct LeafMemory {
   using UnitAllocator = typename std::allocator_traits<Allocator>::template rebind_alloc<Unit>;
   using Traits = std::allocator_traits<UnitAllocator>;
 
-  static std::byte* allocate(const Allocator& allocator, std::size_t capacity, std::size_t rows) {
+  static std::byte* allocate(const Allocator& allocator, std::size_t capacity, std::size_t rows,
+                             bool with_ids) {
     UnitAllocator units(allocator);
     return reinterpret_cast<std::byte*>(
-        std::to_address(Traits::allocate(units, L::bytes(capacity, rows) / L::alignment)));
+        std::to_address(Traits::allocate(units, L::bytes(capacity, rows, with_ids) / L::alignment)));
   }
   static void free(const Allocator& allocator, const L& leaf) {
     if (leaf.data == nullptr) return;
     UnitAllocator units(allocator);
     Traits::deallocate(units, reinterpret_cast<Unit*>(leaf.data),
-                       L::bytes(leaf.capacity, leaf.rows) / L::alignment);
+                       L::bytes(leaf.capacity, leaf.rows, leaf.has_ids) / L::alignment);
   }
 };
 

@@ -95,14 +95,16 @@ inline std::uint64_t first_level_bits(std::uint32_t count) {
 }
 
 /// Compares one row of each of two levels per axis: an element satisfies if first[a] <= upper[a] and
-/// lower[a] <= second[a] on every axis. Row r of block b begins at levels + (b * rows + r) * level_block;
-/// `first` and `second` are the rows of axis 0. @pre count <= level_bits
+/// lower[a] <= second[a] on every axis. Block b begins at levels + b * rows * level_block; its rows are as
+/// far apart as it is wide, which is what is left of `room` for the last one. `first` and `second` are the
+/// rows of axis 0. Levels beyond a row are readable up to a whole block. @pre count <= level_bits
 template <std::size_t D>
 Sieved sieve(const Level* levels, std::size_t rows, std::size_t first, std::size_t second,
-             std::uint32_t count, const Level (&upper)[D], const Level (&lower)[D]) {
+             std::uint32_t count, std::size_t room, const Level (&upper)[D], const Level (&lower)[D]) {
   Sieved result{0, 0};
   for (std::uint32_t begin = 0; begin < count; begin += level_block) {
     const Level* block = levels + begin * rows;
+    const std::size_t stride = room - begin < level_block ? room - begin : level_block;
     std::uint64_t outside_bits = 0;
     std::uint64_t sure_bits = 0;
 #if defined(__GNUC__) && defined(__SSE2__)
@@ -112,8 +114,8 @@ Sieved sieve(const Level* levels, std::size_t rows, std::size_t first, std::size
     V sure = ~V{};
     for (std::size_t a = 0; a < D; ++a) {
       V x, y;
-      std::memcpy(&x, block + (first + a) * level_block, sizeof(V));
-      std::memcpy(&y, block + (second + a) * level_block, sizeof(V));
+      std::memcpy(&x, block + (first + a) * stride, sizeof(V));
+      std::memcpy(&y, block + (second + a) * stride, sizeof(V));
       const V high = V{} + upper[a];
       const V low = V{} + lower[a];
       outside |= (x > high) | (low > y);
@@ -126,8 +128,8 @@ Sieved sieve(const Level* levels, std::size_t rows, std::size_t first, std::size
       bool outside = false;
       bool sure = true;
       for (std::size_t a = 0; a < D; ++a) {
-        const Level x = block[(first + a) * level_block + i];
-        const Level y = block[(second + a) * level_block + i];
+        const Level x = block[(first + a) * stride + i];
+        const Level y = block[(second + a) * stride + i];
         outside |= x > upper[a] || lower[a] > y;
         sure &= upper[a] > x && y > lower[a];
       }

@@ -24,6 +24,7 @@ bool merge_into_first(Tree& tree, std::uint32_t index) {
     if (child.empty()) continue;
     total += tree.leaf(child.index()).count;
     flat &= tree.leaf(child.index()).is_flat();
+    if (!tree.leaf(child.index()).has_ids) return false;
   }
   for (const ChildRef child : node.child) {
     if (child.empty()) continue;
@@ -103,7 +104,16 @@ void remove_at(Tree& tree, const Slot& where) {
   const std::uint32_t last = home.count - 1;
   using Value = typename Tree::ValueType;
   Value* values = home.values();
-  if (where.position != last) {
+  if (!home.has_ids) {
+    // The order tells the ids, so it stays.
+    home.set_gone(home.id(where.position));
+    for (std::uint32_t i = where.position; i < last; ++i) {
+      home.copy_box(i + 1, i);
+      values[i].~Value();
+      ::new (static_cast<void*>(values + i)) Value(std::move(values[i + 1]));
+      if (tree.has_slots()) tree.slot(home.id(i)).position = i;
+    }
+  } else if (where.position != last) {
     home.copy_box(last, where.position);
     const std::uint32_t moved = home.ids()[last];
     home.ids()[where.position] = moved;

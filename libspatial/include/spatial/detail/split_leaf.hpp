@@ -48,6 +48,7 @@ bool split_leaf(Tree& tree, std::uint32_t index, const TreeBox<Tree>& incoming) 
     cell = cell.child(at, all);
     compressed = true;
   }
+  if (!tree.leaf(index).has_ids) tree.enlarge_leaf(index, tree.leaf(index).capacity, tree.leaf(index).rows);
   std::uint32_t counts[3] = {0, 0, 0};
   const auto boxes = tree.leaf(index).boxes();
   for (std::uint32_t i = 0; i < tree.leaf(index).count; ++i) {

@@ -65,7 +65,7 @@ class TreeCore : public TreeStorage<Value, T, D, Allocator> {
 
   /// Removes an element and returns its value. @pre the slot is alive
   Value erase(std::uint32_t id) {
-    const Slot where = this->slot(id);
+    const Slot where = this->place(id);
     Value value(std::move(this->leaf(where.leaf).values()[where.position]));
     remove_at(*this, where);
     this->free_slot(id);
@@ -74,6 +74,7 @@ class TreeCore : public TreeStorage<Value, T, D, Allocator> {
 
   /// Gives an element another box. @pre the slot is alive, is_valid(box)
   void move(std::uint32_t id, const BoxType& box) {
+    this->make_slots();
     const Slot where = this->slot(id);
     LeafType& home = this->leaf(where.leaf);
     const bool same_place =

@@ -3,6 +3,7 @@
 /// in each array. In: indices. Out: nodes, leaves and slots; the rules of the tree are in the files of the
 /// operations.
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -38,6 +39,7 @@ class TreeStorage {
   /// The soft limit of a leaf (§5.1). Measured with 48, 64, 96 and 128: levels make tests cheap, and fewer
   /// leaves make fewer nodes; beyond this the nearest search loses.
   static constexpr std::uint32_t leaf_limit = 96;
+  static_assert(leaf_limit <= LeafType::most_without_ids);
   static constexpr std::uint32_t least_capacity = level_block;  ///< of a leaf that is inserted into
 
   explicit TreeStorage(const Allocator& allocator)
@@ -55,19 +57,34 @@ class TreeStorage {
   [[nodiscard]] NodeType& node(std::uint32_t index) { return nodes_[index]; }
   [[nodiscard]] const LeafType& leaf(std::uint32_t index) const { return leaves_[index]; }
   [[nodiscard]] LeafType& leaf(std::uint32_t index) { return leaves_[index]; }
-  [[nodiscard]] const Slot& slot(std::uint32_t index) const { return slots_[index]; }
+  /// @pre has_slots()
   [[nodiscard]] Slot& slot(std::uint32_t index) { return slots_[index]; }
+  [[nodiscard]] bool has_slots() const { return slots_.implied() == 0; }
   [[nodiscard]] std::size_t leaf_capacity() const { return leaves_.size(); }
   [[nodiscard]] std::size_t slot_capacity() const { return slots_.size(); }
-  [[nodiscard]] bool is_alive(std::uint32_t slot_index, std::uint32_t generation) const {
-    return slots_.is_alive(slot_index, generation);
+  [[nodiscard]] bool is_alive(std::uint32_t id, std::uint32_t generation) const {
+    if (id >= slots_.size()) return false;
+    const Slot where = place(id);
+    return where.leaf != none && where.generation == generation;
   }
-  [[nodiscard]] Value& value(std::uint32_t slot_index) const {
-    const Slot& where = slots_[slot_index];
+  /// Where an element is; no leaf if it is gone. O(1), after a bulk load O(log n). @pre id < slot_capacity()
+  [[nodiscard]] Slot place(std::uint32_t id) const {
+    if (id >= slots_.implied()) return slots_[id];
+    const auto after = std::upper_bound(leaves_.begin(), leaves_.end(), id,
+                                        [](std::uint32_t i, const LeafType& leaf) { return i < leaf.first; });
+    if (after == leaves_.begin()) return {};
+    const LeafType& home = *(after - 1);
+    const std::uint32_t position = home.position_of(id);
+    if (position == home.capacity) return {};
+    return {static_cast<std::uint32_t>(after - leaves_.begin() - 1), position, slots_.generation(id)};
+  }
+  [[nodiscard]] std::uint32_t generation(std::uint32_t id) const { return slots_.generation(id); }
+  [[nodiscard]] Value& value(std::uint32_t id) const {
+    const Slot where = place(id);
     return leaves_[where.leaf].values()[where.position];
   }
-  [[nodiscard]] BoxType box(std::uint32_t slot_index) const {
-    const Slot& where = slots_[slot_index];
+  [[nodiscard]] BoxType box(std::uint32_t id) const {
+    const Slot where = place(id);
     return leaves_[where.leaf].box(where.position);
   }
   /// Whether the box of a big leaf may be too large (shrink_leaf).
@@ -109,13 +126,28 @@ class TreeStorage {
 
   // --- slots, nodes and leaves as numbered objects ---
 
-  std::uint32_t take_slot() { return slots_.take(); }
+  /// After a bulk load: what changes more than by erasing needs a slot for each element. O(n), once.
+  void make_slots() {
+    if (has_slots()) return;
+    const std::uint32_t generation = slots_.generation(0);
+    const std::uint32_t fresh = slots_.make_all();
+    for (std::uint32_t l = 0; l < leaves_.size(); ++l) {
+      const LeafType& home = leaves_[l];
+      for (std::uint32_t i = 0; i < home.count && !home.has_ids; ++i) slots_[home.id(i)] = {l, i, generation};
+    }
+    slots_.free_unused(0, fresh);
+  }
+  std::uint32_t take_slot() {
+    make_slots();
+    return slots_.take();
+  }
   void release_taken_slot(std::uint32_t id) {
     slots_.release_taken(id);
     ++state_.size;
   }
+  /// An id without a slot is free because its leaf says so.
   void free_slot(std::uint32_t id) {
-    slots_.free(id);
+    if (id >= slots_.implied()) slots_.free(id);
     --state_.size;
   }
 
@@ -139,7 +171,7 @@ class TreeStorage {
       leaves_.back().parent = none;
       state_.free_leaf = static_cast<std::uint32_t>(leaves_.size() - 1);
     }
-    std::byte* data = Memory::allocate(allocator_, capacity, rows);
+    std::byte* data = Memory::allocate(allocator_, capacity, rows, true);
     const std::uint32_t index = state_.free_leaf;
     state_.free_leaf = leaves_[index].parent;
     leaves_[index] = LeafType{};
@@ -149,7 +181,9 @@ class TreeStorage {
     return index;
   }
   void free_leaf(std::uint32_t index) {
+    const std::uint32_t first = leaves_[index].first;
     release_leaf_memory(leaves_[index]);
+    leaves_[index].first = first;
     leaves_[index].parent = state_.free_leaf;
     state_.free_leaf = index;
   }
@@ -174,11 +208,13 @@ class TreeStorage {
     slots_[id].position = end;
   }
 
+  /// Gives a leaf a new block, with ids. @pre capacity >= count, has_slots()
   void enlarge_leaf(std::uint32_t index, std::uint32_t capacity, std::uint8_t rows) {
     LeafType bigger = leaves_[index];
     bigger.capacity = capacity;
     bigger.rows = rows;
-    bigger.data = Memory::allocate(allocator_, capacity, rows);
+    bigger.has_ids = true;
+    bigger.data = Memory::allocate(allocator_, capacity, rows, true);
     LeafType& old = leaves_[index];
     bigger.copy_all(old);
     Value* from = old.values();
@@ -195,25 +231,38 @@ class TreeStorage {
 
   /// Adds many elements: entries[i] is {box, slot_capacity() + i} and belongs to values[i]. Those whose box
   /// is not valid have been left out of `entries`, but not of `values`. The whole tree is built anew.
+  /// @param slots false: nobody will ask for ids as they are in `entries`; so as few slots are made as
+  /// possible, which is none if the tree never had any
   template <class Values>
-  void insert_all(std::vector<BuildEntry<T, D>>& entries, Values& values) {
-    const std::size_t first_new = slots_.size();
+  void insert_all(std::vector<BuildEntry<T, D>>& entries, Values& values, bool slots) {
+    make_slots();
+    const auto first_new = static_cast<std::uint32_t>(slots_.size());
     const std::size_t added = entries.size();
+    slots |= first_new > 0;
     entries.reserve(added + state_.size);
     for (std::uint32_t id = 0; id < first_new; ++id) {
       if (slots_[id].leaf != none) entries.push_back({box(id), id});
     }
-    Build<TreeStorage> fresh(allocator_);
+    Build<TreeStorage> fresh(allocator_, slots);
     fresh.run(entries);
-    slots_.grow(values.size());
-    // From here on nothing fails.
+    if (slots) {
+      slots_.grow(values.size());
+    } else {
+      slots_.begin(static_cast<std::uint32_t>(added), fresh.without_ids);
+    }
+    // From here on nothing fails. Entries lie in the order of the leaves now.
+    const BuildEntry<T, D>* entry = entries.data();
+    std::uint32_t next_id = slots_.implied();
     for (std::uint32_t l = 0; l < fresh.leaves.size(); ++l) {
       LeafType& home = fresh.leaves[l];
-      for (std::uint32_t i = 0; i < home.count; ++i) {
-        const std::uint32_t id = home.ids()[i];
-        Value& from = id < first_new ? value(id) : values[id - first_new];
+      for (std::uint32_t i = 0; i < home.count; ++i, ++entry) {
+        const bool is_old = entry->id < first_new;
+        Value& from = is_old ? value(entry->id) : values[entry->id - first_new];
         ::new (static_cast<void*>(home.values() + i)) Value(std::move(from));
-        if (id >= first_new) {
+        if (!home.has_ids) continue;
+        const std::uint32_t id = slots ? entry->id : next_id++;
+        home.ids()[i] = id;
+        if (!is_old) {
           slots_[id].leaf = l;
           slots_[id].position = i;
         }
@@ -231,7 +280,7 @@ class TreeStorage {
     leaves_.clear();
     nodes_.swap(fresh.nodes);
     leaves_.swap(fresh.leaves);
-    slots_.free_unused(first_new);
+    if (slots) slots_.free_unused(first_new, slots_.size());
     state_ = {none, none, fresh.root, fresh.root_box, size() + added, false};
   }
 
@@ -246,12 +295,14 @@ class TreeStorage {
       const LeafType& from = other.leaves_[l];
       LeafType& to = leaves_[l];
       to.parent = from.parent;
+      to.first = from.first;
       if (from.data == nullptr) continue;
       to.side = from.side;
       to.loose = from.loose;
       to.indivisible = from.indivisible;
       to.rows = from.rows;
-      to.data = Memory::allocate(allocator_, from.capacity, from.rows);
+      to.has_ids = from.has_ids;
+      to.data = Memory::allocate(allocator_, from.capacity, from.rows, from.has_ids);
       to.capacity = from.capacity;
       to.copy_all(from);
       for (std::uint32_t i = 0; i < from.count; ++i, ++to.count) {
@@ -265,7 +316,7 @@ class TreeStorage {
     for (LeafType& each : leaves_) release_leaf_memory(each);
     nodes_.clear();
     leaves_.clear();
-    slots_.free_all();
+    slots_.clear();
     state_ = {};
   }
 
