@@ -4,6 +4,7 @@
 #include <map>
 #include <random>
 #include <spatial/point_cluster_dictionary.hpp>
+#include <spatial/weld.hpp>
 #include <string>
 
 namespace {
@@ -156,5 +157,42 @@ TEST_CASE("merge distances without a square are refused") {
   for (const double bad : {0.0, -1.0, 1e-200, 1e200, std::nan("")}) {
     spatial::PointClusterDictionary<double, 2, int> dictionary(bad);
     CHECK_FALSE(dictionary.insert_or_merge({0, 0}, 1).cluster.valid());
+  }
+}
+
+TEST_CASE("what was erased leaves no memory behind, and its id is not used again") {
+  using Dictionary = spatial::PointClusterDictionary<double, 2, int>;
+  Dictionary dictionary(0.1);
+  std::vector<spatial::ClusterId> ids;
+  std::size_t early = 0;
+  spatial::ClusterId eldest;
+  for (int i = 0; i < 50000; ++i) {
+    // Ever new places, so ever new cells; 100 clusters stay, and the very first.
+    const auto made = dictionary.insert_or_merge({i * 0.7, i % 13 * 0.3}, i);
+    REQUIRE(made.inserted);
+    if (i == 0) {
+      eldest = made.cluster;
+      REQUIRE(dictionary.add_center(eldest, {0.0, 0.15}));
+      continue;
+    }
+    ids.push_back(made.cluster);
+    if (ids.size() <= 100) continue;
+    const spatial::ClusterId old = ids[ids.size() - 101];
+    REQUIRE(dictionary.value(old) == i - 100);
+    REQUIRE(dictionary.erase(old));
+    REQUIRE_FALSE(dictionary.contains(old));
+    REQUIRE_FALSE(dictionary.erase(old));
+    if (i == 1000) early = dictionary.bytes();
+    if (i > 1000) REQUIRE(dictionary.bytes() <= 2 * early);
+  }
+  CHECK(dictionary.size() == 101);
+  CHECK(dictionary.value(eldest) == 0);
+  CHECK(dictionary.find_nearest({0.0, 0.16}) == eldest);
+  CHECK(dictionary.contains(ids.back()));
+  CHECK_FALSE(dictionary.contains(ids.front()));
+  int last = -1;
+  for (const spatial::ClusterId id : dictionary) {
+    CHECK(dictionary.value(id) > last);
+    last = dictionary.value(id);
   }
 }

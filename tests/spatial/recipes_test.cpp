@@ -3,6 +3,7 @@
 
 #include <spatial/bounding_box_ternary_tree.hpp>
 #include <spatial/point_cluster_dictionary.hpp>
+#include <spatial/weld.hpp>
 #include <string>
 #include <vector>
 

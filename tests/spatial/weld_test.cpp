@@ -5,6 +5,7 @@
 #include <limits>
 #include <random>
 #include <spatial/point_cluster_dictionary.hpp>
+#include <spatial/weld.hpp>
 
 namespace {
 

@@ -85,12 +85,17 @@ class PointClusterDictionary {
     clusters_.swap(other.clusters_);
     centres_.swap(other.centres_);
     std::swap(size_, other.size_);
+    std::swap(next_id_, other.next_id_);
   }
   friend void swap(PointClusterDictionary& a, PointClusterDictionary& b) noexcept { a.swap(b); }
 
   [[nodiscard]] T merge_distance() const { return static_cast<T>(distance_); }
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] bool empty() const { return size_ == 0; }
+  /// Memory in use and kept ready.
+  [[nodiscard]] std::size_t bytes() const {
+    return grid_.bytes() + clusters_.capacity() * sizeof(Cluster) + centres_.capacity() * sizeof(Centre);
+  }
 
   /// True if the grid can hold the point: no NaN, and each coordinate within ±2^30 merge distances.
   [[nodiscard]] bool accepts(const point_type& point) const {
@@ -106,15 +111,16 @@ class PointClusterDictionary {
     if (!accepts(point)) return {};
     const ClusterId near = find_nearest(point);
     if (near.valid()) return {near, false};
-    const auto id = static_cast<std::uint32_t>(clusters_.size());
+    if (clusters_.size() > 2 * size_ + 64) forget_erased();
+    const auto index = static_cast<std::uint32_t>(clusters_.size());
     const auto centre = static_cast<std::uint32_t>(centres_.size());
     const auto place = grid_.prepare(key_of(point));
     if (centres_.size() == centres_.capacity()) centres_.reserve(2 * centres_.size() + 8);
-    clusters_.push_back({std::move(value), point, centre, true});
-    centres_.push_back({point, id, none});
+    clusters_.push_back({std::move(value), point, centre, next_id_, true});
+    centres_.push_back({point, index, none});
     grid_.add(place, point, centre);
     ++size_;
-    return {{id}, true};
+    return {{next_id_++}, true};
   }
 
   /// Gives a cluster a further centre: points within δm of it are within reach of the cluster too. O(1), as
@@ -125,25 +131,28 @@ class PointClusterDictionary {
   bool add_center(ClusterId cluster, const point_type& point) {
     if (!contains(cluster) || !accepts(point)) return false;
     bool taken = false;
-    visit_near(point, [&](std::uint32_t centre, double) { taken |= cluster_of(centre) != cluster.index; });
+    visit_near(point, [&](std::uint32_t centre, double) { taken |= cluster_of(centre) != cluster; });
     if (taken) return false;
     const auto place = grid_.prepare(key_of(point));
-    Cluster& owner = clusters_[cluster.index];
+    const std::uint32_t index = index_of(cluster);
+    Cluster& owner = clusters_[index];
     const auto centre = static_cast<std::uint32_t>(centres_.size());
-    centres_.push_back({point, cluster.index, owner.last_centre});
+    centres_.push_back({point, index, owner.last_centre});
     owner.last_centre = centre;
     grid_.add(place, point, centre);
     return true;
   }
 
-  /// Removes a cluster and all its centres. Its id is not used again. O(number of its centres).
+  /// Removes a cluster and all its centres. Its id is not used again; its memory is. O(number of its
+  /// centres).
   /// @return false if it is not there
   bool erase(ClusterId cluster) {
     if (!contains(cluster)) return false;
-    for (std::uint32_t c = clusters_[cluster.index].last_centre; c != none; c = centres_[c].sibling) {
+    Cluster& gone = clusters_[index_of(cluster)];
+    for (std::uint32_t c = gone.last_centre; c != none; c = centres_[c].sibling) {
       grid_.remove(key_of(centres_[c].point), c);
     }
-    clusters_[cluster.index].alive = false;
+    gone.alive = false;
     --size_;
     return true;
   }
@@ -151,7 +160,7 @@ class PointClusterDictionary {
   /// Inserts or merges the clusters of another dictionary in their order, with their further centres where
   /// those are free. @return for each id of the other dictionary, the cluster here
   std::vector<ClusterId> merge(const PointClusterDictionary& other) {
-    std::vector<ClusterId> result(other.clusters_.size());
+    std::vector<ClusterId> result(other.next_id_);
     if (this == &other) {
       for (const ClusterId id : other) result[id.index] = id;
       return result;
@@ -159,10 +168,8 @@ class PointClusterDictionary {
     for (const ClusterId id : other)
       result[id.index] = insert_or_merge(other.center(id), other.value(id)).cluster;
     for (const Centre& centre : other.centres_) {
-      if (!other.contains(ClusterId{centre.cluster}) ||
-          centre.point == other.clusters_[centre.cluster].center)
-        continue;
-      add_center(result[centre.cluster], centre.point);
+      const Cluster& owner = other.clusters_[centre.cluster];
+      if (owner.alive && centre.point != owner.center) add_center(result[owner.id], centre.point);
     }
     return result;
   }
@@ -172,10 +179,12 @@ class PointClusterDictionary {
     clusters_.clear();
     centres_.clear();
     size_ = 0;
+    next_id_ = 0;
   }
 
   [[nodiscard]] bool contains(ClusterId cluster) const {
-    return cluster.index < clusters_.size() && clusters_[cluster.index].alive;
+    const std::uint32_t index = index_of(cluster);
+    return index < clusters_.size() && clusters_[index].alive;
   }
 
   /// The nearest cluster within δm, or an invalid id. O(1).
@@ -185,7 +194,7 @@ class PointClusterDictionary {
     std::uint32_t best_centre = none;
     visit_near(point, [&](std::uint32_t centre, double squared) {
       if (squared < best_squared || (squared == best_squared && centre < best_centre)) {
-        best = {cluster_of(centre)};
+        best = cluster_of(centre);
         best_squared = squared;
         best_centre = centre;
       }
@@ -199,9 +208,9 @@ class PointClusterDictionary {
   void for_each_within(const point_type& point, Visitor&& visitor) const {
     visit_near(point, [&](std::uint32_t centre, double squared) {
       if constexpr (std::is_invocable_v<Visitor&, ClusterId>) {
-        visitor(ClusterId{cluster_of(centre)});
+        visitor(cluster_of(centre));
       } else {
-        visitor(ClusterId{cluster_of(centre)}, squared);
+        visitor(cluster_of(centre), squared);
       }
     });
   }
@@ -218,7 +227,7 @@ class PointClusterDictionary {
     Iterator(const PointClusterDictionary& dictionary, std::uint32_t at) : dictionary_(&dictionary), at_(at) {
       skip();
     }
-    ClusterId operator*() const { return {at_}; }
+    ClusterId operator*() const { return {dictionary_->clusters_[at_].id}; }
     Iterator& operator++() {
       ++at_;
       skip();
@@ -242,9 +251,11 @@ class PointClusterDictionary {
   [[nodiscard]] Iterator end() const { return {*this, static_cast<std::uint32_t>(clusters_.size())}; }
 
   /// @pre the cluster is in the dictionary
-  [[nodiscard]] const point_type& center(ClusterId cluster) const { return clusters_[cluster.index].center; }
-  [[nodiscard]] const Value& value(ClusterId cluster) const { return clusters_[cluster.index].value; }
-  [[nodiscard]] Value& value(ClusterId cluster) { return clusters_[cluster.index].value; }
+  [[nodiscard]] const point_type& center(ClusterId cluster) const {
+    return clusters_[index_of(cluster)].center;
+  }
+  [[nodiscard]] const Value& value(ClusterId cluster) const { return clusters_[index_of(cluster)].value; }
+  [[nodiscard]] Value& value(ClusterId cluster) { return clusters_[index_of(cluster)].value; }
 
  private:
   using Key = std::array<std::int32_t, D>;
@@ -260,11 +271,12 @@ class PointClusterDictionary {
     Value value;
     point_type center;
     std::uint32_t last_centre;
+    std::uint32_t id;
     bool alive;
   };
   struct Centre {
     point_type point;
-    std::uint32_t cluster;
+    std::uint32_t cluster;  // its index
     std::uint32_t sibling;  // of the same cluster
   };
 
@@ -289,9 +301,45 @@ class PointClusterDictionary {
     return sum;
   }
 
-  /// Until a cluster gets a further centre, both have the same number.
-  [[nodiscard]] std::uint32_t cluster_of(std::uint32_t centre) const {
-    return centres_.size() == clusters_.size() ? centre : centres_[centre].cluster;
+  /// While none is forgotten, a cluster's index is its id. `clusters_.size()` or more if it is not there.
+  [[nodiscard]] std::uint32_t index_of(ClusterId cluster) const {
+    if (clusters_.size() == next_id_) return cluster.index;
+    const auto found = std::lower_bound(clusters_.begin(), clusters_.end(), cluster.index,
+                                        [](const Cluster& each, std::uint32_t id) { return each.id < id; });
+    const bool is_there = found != clusters_.end() && found->id == cluster.index;
+    return is_there ? static_cast<std::uint32_t>(found - clusters_.begin()) : none;
+  }
+  /// Until a cluster gets a further centre or is forgotten, all have the same number.
+  [[nodiscard]] ClusterId cluster_of(std::uint32_t centre) const {
+    const std::uint32_t index = centres_.size() == clusters_.size() ? centre : centres_[centre].cluster;
+    return {clusters_.size() == next_id_ ? index : clusters_[index].id};
+  }
+
+  /// Frees the memory of erased clusters. Ids and the order of centres stay.
+  void forget_erased() {
+    PointClusterDictionary kept(merge_distance());
+    std::vector<std::uint32_t> fresh(clusters_.size(), none);
+    std::vector<std::uint32_t> last(size_, none);
+    std::uint32_t count = 0;
+    for (std::size_t i = 0; i < clusters_.size(); ++i) {
+      if (clusters_[i].alive) fresh[i] = count++;
+    }
+    for (const Centre& centre : centres_) {
+      const std::uint32_t index = fresh[centre.cluster];
+      if (index == none) continue;
+      const auto number = static_cast<std::uint32_t>(kept.centres_.size());
+      kept.centres_.push_back({centre.point, index, std::exchange(last[index], number)});
+      kept.grid_.add(kept.grid_.prepare(key_of(centre.point)), centre.point, number);
+    }
+    kept.clusters_.reserve(size_);
+    for (Cluster& each : clusters_) {
+      if (!each.alive) continue;
+      kept.clusters_.push_back(std::move_if_noexcept(each));
+      kept.clusters_.back().last_centre = last[kept.clusters_.size() - 1];
+    }
+    grid_ = std::move(kept.grid_);
+    clusters_.swap(kept.clusters_);
+    centres_.swap(kept.centres_);
   }
 
   template <class Visit>
@@ -325,43 +373,7 @@ class PointClusterDictionary {
   std::vector<Cluster> clusters_;
   std::vector<Centre> centres_;
   std::size_t size_ = 0;
+  std::uint32_t next_id_ = 0;
 };
-
-/// Merges points within `merge_distance`, in order: result[i] is the index, in `points`, of the point that
-/// point i was merged to (its own if it was not). A point that is not accepted keeps its own index. O(n).
-template <class T, std::size_t D>
-[[nodiscard]] std::vector<std::uint32_t> weld(const std::vector<Point<T, D>>& points, T merge_distance) {
-  PointClusterDictionary<T, D, std::uint32_t> dictionary(merge_distance);
-  std::vector<std::uint32_t> result;
-  result.reserve(points.size());
-  for (const Point<T, D>& point : points) {
-    const auto own = static_cast<std::uint32_t>(result.size());
-    const MergeResult merged = dictionary.insert_or_merge(point, own);
-    result.push_back(merged.cluster.valid() ? dictionary.value(merged.cluster) : own);
-  }
-  return result;
-}
-
-/// The same, but which points are merged does not depend on their order: the points are taken in
-/// lexicographic order. O(n log n).
-template <class T, std::size_t D>
-[[nodiscard]] std::vector<std::uint32_t> weld_in_any_order(const std::vector<Point<T, D>>& points,
-                                                           T merge_distance) {
-  std::vector<std::uint32_t> order(points.size());
-  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
-  PointClusterDictionary<T, D, std::uint32_t> dictionary(merge_distance);
-  // Points that are not accepted may be NaN, which has no order.
-  const auto refused = std::partition(order.begin(), order.end(),
-                                      [&](std::uint32_t i) { return dictionary.accepts(points[i]); });
-  std::sort(order.begin(), refused, [&](std::uint32_t a, std::uint32_t b) {
-    return points[a] != points[b] ? points[a] < points[b] : a < b;
-  });
-  std::vector<std::uint32_t> result(points.size());
-  for (auto i = order.begin(); i != refused; ++i) {
-    result[*i] = dictionary.value(dictionary.insert_or_merge(points[*i], *i).cluster);
-  }
-  for (auto i = refused; i != order.end(); ++i) result[*i] = *i;
-  return result;
-}
 
 }  // namespace spatial

@@ -58,6 +58,10 @@ class CellGrid {
     for (std::size_t a = 0; a < D; ++a) rows[a * stride + at] = rows[a * stride + last];
     entry.count = last;
   }
+  [[nodiscard]] std::size_t bytes() const {
+    return entries_.capacity() * sizeof(Entry) + coordinates_.capacity() * sizeof(T) +
+           numbers_.capacity() * sizeof(std::uint32_t);
+  }
   void clear() {
     entries_.clear();
     coordinates_.clear();
@@ -163,14 +167,32 @@ class CellGrid {
     return bits != 0;
   }
 
+  /// Makes room for cells, where emptied ones do not make enough.
   void grow() {
-    const std::size_t size = entries_.empty() ? 16 : entries_.size() * 2;
+    std::size_t cells = 0;
+    for (const Entry& entry : entries_)
+      cells += static_cast<std::size_t>(!is_unused(entry) && entry.count > 0);
+    const std::size_t size = entries_.empty()              ? 16
+                             : 8 * cells < entries_.size() ? entries_.size()
+                                                           : 2 * entries_.size();
     std::vector<Entry> old(size, Entry{});
     old.swap(entries_);
     shift_ = 64 - static_cast<unsigned>(std::countr_zero(size));
+    used_ = cells;
     for (const Entry& entry : old) {
-      if (entry.count != unused) entries_[find(entry.key, start(hash(entry.key)))] = entry;
+      if (is_unused(entry)) continue;
+      if (entry.count > 0) {
+        entries_[find(entry.key, start(hash(entry.key)))] = entry;
+      } else {
+        free_block(entry);
+      }
     }
+  }
+  static bool is_unused(const Entry& entry) { return entry.count == unused; }
+  void free_block(const Entry& entry) {
+    if (entry.order == 0) return;
+    numbers_[entry.first] = free_[entry.order];
+    free_[entry.order] = entry.first;
   }
 
   /// Moves a cell's points to a block of twice the capacity; the old one is used again.
@@ -192,10 +214,7 @@ class CellGrid {
       for (std::size_t a = 0; a < D; ++a) to[a * stride + i] = from[a * old_stride + i];
       numbers_[first + i] = numbers_[entry.first + i];
     }
-    if (entry.order > 0) {
-      numbers_[entry.first] = free_[entry.order];
-      free_[entry.order] = entry.first;
-    }
+    free_block(entry);
     entry.first = first;
     entry.order = order;
   }
