@@ -6,7 +6,8 @@ usage: bench_spatial --benchmark_repetitions=3 --benchmark_enable_random_interle
 
 Each cell is the geometric mean over the data sets of (median of the peer / median of ours), above 1 where ours is faster,
 and in brackets the worst data set. The peer is the fastest of the variants named. What follows --native was measured by a
-program compiled with -march=native and gets columns of its own.
+program compiled with -march=native and gets columns of its own. Peers that did not come to the same answers are not compared:
+they are named, and the exit code is 1.
 """
 import json
 import math
@@ -28,12 +29,31 @@ LINES = [  # operation, ours, peers, wanted
     ("pairs", "bbtt_with_build", ["cgal_box_intersection"], 1.5),
     ("merge", "pcd", ["boost_rtree"], 5),
     ("merge", "pcd", ["unordered_map"], 2),
+    ("merge", "pcd", ["vtk_octree"], ""),
     ("within", "pcd", ["nanoflann"], 3),
     *[(name, "bbtt", ["box2d"], "") for name in ("insert", "query_1", "query_10", "query_100", "query_1%", "erase",
                                                  "move_1%", "move_100%")],
     *[(name, "bbtt", ["libspatialindex"], "") for name in ("insert", "query_10", "load", "query_loaded_10",
                                                            "nearest_10", "erase", "move_100%")],
 ]
+
+
+def close(a, b):
+    """Sums of numbers of elements; a distance that is rounded otherwise may change one of very many."""
+    return abs(a - b) <= 1e-5 * max(abs(a), abs(b))
+
+
+def differing(paths):
+    answers = {}
+    for path in paths:
+        if path == "--native":
+            continue
+        with open(path, encoding="utf-8") as file:
+            for run in json.load(file)["benchmarks"]:
+                *what, peer = run["run_name"].split("/")[:5]
+                if "answer" in run and run.get("run_type") != "aggregate":
+                    answers.setdefault(tuple(what), {})["/".join([*what, peer])] = run["answer"]
+    return [by_peer for by_peer in answers.values() if not close(min(by_peer.values()), max(by_peer.values()))]
 
 
 def read(paths):
@@ -71,6 +91,9 @@ def ratio(by_data, ours, peers):
 
 
 def main():
+    wrong = differing(sys.argv[1:])
+    if wrong:
+        sys.exit("\n".join(["these do not have the same answers:", *map(str, wrong)]))
     times, memory = read(sys.argv[1:])
     columns = sorted({key[1:] for key in times})
     print("| operation | against | wanted | " + " | ".join(f"{s}, {n:,}" for s, n in columns) + " |")

@@ -79,4 +79,22 @@ std::vector<spatial::Box<T, D>> queries(const std::vector<spatial::Box<T, D>>& b
   return with_half(high, number);
 }
 
+/// Points in the unit cube, for the point cluster dictionary.
+template <class T, std::size_t D>
+std::vector<spatial::Point<T, D>> cloud(std::size_t count) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<T> unit(0, 1);
+  std::vector<spatial::Point<T, D>> points(count);
+  for (auto& p : points) {
+    for (T& x : p) x = unit(random);
+  }
+  return points;
+}
+
+/// About one point in three finds a centre.
+template <std::size_t D>
+double merge_distance(std::size_t count) {
+  return 0.5 * std::pow(1.0 / static_cast<double>(count), 1.0 / static_cast<double>(D));
+}
+
 }  // namespace data

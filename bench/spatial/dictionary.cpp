@@ -1,4 +1,5 @@
-// The point cluster dictionary against an R-tree, a grid in an unordered_map, and nanoflann.
+// The point cluster dictionary against an R-tree, a grid in an unordered_map, VTK and nanoflann. The counter
+// `answer` is the number of clusters or of what was found.
 #include <benchmark/benchmark.h>
 
 #include <boost/geometry.hpp>
@@ -10,24 +11,9 @@
 #include <unordered_map>
 #include <vector>
 
+#include "data.hpp"
+
 namespace {
-
-template <class T, std::size_t D>
-std::vector<spatial::Point<T, D>> cloud(std::size_t count) {
-  std::mt19937_64 random(1);
-  std::uniform_real_distribution<T> unit(0, 1);
-  std::vector<spatial::Point<T, D>> points(count);
-  for (auto& p : points) {
-    for (T& x : p) x = unit(random);
-  }
-  return points;
-}
-
-/// About one point in three finds a centre.
-template <std::size_t D>
-double merge_distance(std::size_t count) {
-  return 0.5 * std::pow(1.0 / static_cast<double>(count), 1.0 / static_cast<double>(D));
-}
 
 template <class T, std::size_t D>
 T squared(const spatial::Point<T, D>& p, const spatial::Point<T, D>& q) {
@@ -82,6 +68,7 @@ class MapGrid {
     cells_[home].push_back({p, next_});
     return next_++;
   }
+  std::size_t size() const { return next_; }
   static constexpr std::uint32_t none = 0xffffffffu;
 
  private:
@@ -104,29 +91,30 @@ struct Cloud {
 template <class T, std::size_t D>
 void add(std::size_t count, const std::string& type) {
   namespace bg = boost::geometry;
-  const T distance = static_cast<T>(merge_distance<D>(count));
+  const T distance = static_cast<T>(data::merge_distance<D>(count));
   const std::string tail = "/uniform/" + type + "/" + std::to_string(count) + "/";
   const auto reg = [&](const std::string& name, auto f) {
     benchmark::RegisterBenchmark(name.c_str(), f)->Unit(benchmark::kMillisecond);
   };
   reg("merge" + tail + "pcd", [=](benchmark::State& state) {
-    const auto points = cloud<T, D>(count);
+    const auto points = data::cloud<T, D>(count);
     for (auto _ : state) {
       spatial::PointClusterDictionary<T, D, std::uint32_t> dictionary(distance);
       for (const auto& p : points) benchmark::DoNotOptimize(dictionary.insert_or_merge(p, 0));
-      state.counters["clusters"] = static_cast<double>(dictionary.size());
+      state.counters["answer"] = static_cast<double>(dictionary.size());
     }
   });
   reg("merge" + tail + "unordered_map", [=](benchmark::State& state) {
-    const auto points = cloud<T, D>(count);
+    const auto points = data::cloud<T, D>(count);
     for (auto _ : state) {
       MapGrid<T, D> grid(distance);
       for (const auto& p : points) benchmark::DoNotOptimize(grid.insert_or_merge(p));
+      state.counters["answer"] = static_cast<double>(grid.size());
     }
   });
   reg("merge" + tail + "boost_rtree", [=](benchmark::State& state) {
     using P = bg::model::point<T, D, bg::cs::cartesian>;
-    const auto points = cloud<T, D>(count);
+    const auto points = data::cloud<T, D>(count);
     for (auto _ : state) {
       bg::index::rtree<P, bg::index::linear<16>> tree;
       for (const auto& p : points) {
@@ -140,21 +128,24 @@ void add(std::size_t count, const std::string& type) {
         if (!near) tree.insert(at);
       }
       benchmark::DoNotOptimize(tree);
+      state.counters["answer"] = static_cast<double>(tree.size());
     }
   });
   reg("within" + tail + "pcd", [=](benchmark::State& state) {
-    const auto points = cloud<T, D>(count);
+    const auto points = data::cloud<T, D>(count);
     spatial::PointClusterDictionary<T, D, std::uint32_t> dictionary(distance);
     for (const auto& p : points) dictionary.insert_or_merge(p, 0);
+    std::size_t sum = 0;
     for (auto _ : state) {
-      std::size_t sum = 0;
+      sum = 0;
       for (const auto& p : points)
         dictionary.for_each_within(p, [&](spatial::ClusterId id) { sum += id.index; });
       benchmark::DoNotOptimize(sum);
     }
+    state.counters["answer"] = static_cast<double>(sum);
   });
   reg("within" + tail + "nanoflann", [=](benchmark::State& state) {
-    const auto points = cloud<T, D>(count);
+    const auto points = data::cloud<T, D>(count);
     spatial::PointClusterDictionary<T, D, std::uint32_t> dictionary(distance);
     std::vector<spatial::Point<T, D>> centres;  // the same ones
     for (const auto& p : points) {
@@ -168,14 +159,16 @@ void add(std::size_t count, const std::string& type) {
     std::vector<std::pair<std::uint32_t, T>> found;
     nanoflann::SearchParams parameters;
     parameters.sorted = false;
+    std::size_t sum = 0;
     for (auto _ : state) {
-      std::size_t sum = 0;
+      sum = 0;
       for (const auto& p : points) {
         tree.radiusSearch(p.data(), distance * distance, found, parameters);
         for (const auto& f : found) sum += f.first;
       }
       benchmark::DoNotOptimize(sum);
     }
+    state.counters["answer"] = static_cast<double>(sum);
   });
 }
 

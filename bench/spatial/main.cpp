@@ -12,6 +12,9 @@ void add_box2d();
 #ifdef SNIP_BENCH_SPATIALINDEX
 void add_spatialindex();
 #endif
+#ifdef SNIP_BENCH_VTK
+void add_vtk();
+#endif
 
 int main(int argc, char** argv) {
   add_tree_f2();
@@ -24,6 +27,9 @@ int main(int argc, char** argv) {
 #endif
 #ifdef SNIP_BENCH_SPATIALINDEX
   add_spatialindex();
+#endif
+#ifdef SNIP_BENCH_VTK
+  add_vtk();
 #endif
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;

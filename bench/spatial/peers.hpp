@@ -61,10 +61,9 @@ struct Bbtt {
     return sum;
   }
   std::size_t count(const Box& q) const { return tree.count(spatial::intersects(q)); }
-  std::size_t nearest(const spatial::Point<T, D>& p, unsigned k) const {
-    std::size_t sum = 0;
-    tree.query(spatial::nearest(p, k), [&](std::uint32_t v) { sum += v; });
-    return sum;
+  template <class Visit>
+  void nearest(const spatial::Point<T, D>& p, unsigned k, Visit visit) const {
+    tree.query(spatial::nearest(p, k), [&](std::uint32_t v) { visit(v); });
   }
   void erase(std::uint32_t i, const Box&) { tree.erase(handles[i]); }
   void move(std::uint32_t i, const Box&, const Box& to) { tree.move(handles[i], to); }
@@ -107,11 +106,10 @@ struct Boost {
                boost::make_function_output_iterator([&](const Value& v) { sum += v.second; }));
     return sum;
   }
-  std::size_t nearest(const spatial::Point<T, D>& p, unsigned k) const {
-    std::size_t sum = 0;
+  template <class Visit>
+  void nearest(const spatial::Point<T, D>& p, unsigned k, Visit visit) const {
     tree.query(boost::geometry::index::nearest(point(p), k),
-               boost::make_function_output_iterator([&](const Value& v) { sum += v.second; }));
-    return sum;
+               boost::make_function_output_iterator([&](const Value& v) { visit(v.second); }));
   }
   void erase(std::uint32_t i, const Box& at) { tree.remove(Value(box(at), i)); }
   void move(std::uint32_t i, const Box& from, const Box& to) {

@@ -10,14 +10,18 @@ namespace {
 namespace si = SpatialIndex;
 
 /// Sums the ids of what is found.
-class Sum : public si::IVisitor {
+template <class Visit>
+class Visitor : public si::IVisitor {
  public:
-  std::size_t sum = 0;
+  explicit Visitor(Visit visit) : visit_(visit) {}
   void visitNode(const si::INode&) override {}
-  void visitData(const si::IData& data) override { sum += static_cast<std::size_t>(data.getIdentifier()); }
+  void visitData(const si::IData& data) override { visit_(static_cast<std::uint32_t>(data.getIdentifier())); }
   void visitData(std::vector<const si::IData*>& all) override {
     for (const si::IData* data : all) visitData(*data);
   }
+
+ private:
+  Visit visit_;
 };
 
 template <class T, std::size_t D>
@@ -43,14 +47,15 @@ class Rtree {
     return result;
   }
   std::size_t query(const Box& q) const {
-    Sum sum;
-    tree_->intersectsWithQuery(region(q), sum);
-    return sum.sum;
+    std::size_t sum = 0;
+    Visitor visitor([&](std::uint32_t i) { sum += i; });
+    tree_->intersectsWithQuery(region(q), visitor);
+    return sum;
   }
-  std::size_t nearest(const spatial::Point<T, D>& p, unsigned k) const {
-    Sum sum;
-    tree_->nearestNeighborQuery(k, si::Point(p.data(), D), sum);
-    return sum.sum;
+  template <class Visit>
+  void nearest(const spatial::Point<T, D>& p, unsigned k, Visit visit) const {
+    Visitor<Visit> visitor(visit);
+    tree_->nearestNeighborQuery(k, si::Point(p.data(), D), visitor);
   }
   void erase(std::uint32_t i, const Box& at) { tree_->deleteData(region(at), i); }
   void move(std::uint32_t i, const Box& from, const Box& to) {

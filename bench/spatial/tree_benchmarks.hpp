@@ -1,5 +1,6 @@
 // The benchmarks of the tree for one scalar type and dimension. Names are operation/data/type/count/peer; the
-// time per iteration is that of the whole operation on all elements or queries, the same for all peers.
+// time per iteration is that of the whole operation on all elements or queries, the same for all peers. The
+// counter `answer` is what came out, or what queries find afterwards: compare.py refuses peers that differ.
 #pragma once
 #include <benchmark/benchmark.h>
 
@@ -77,6 +78,25 @@ std::unique_ptr<Peer> copy(const Peer& peer, const Boxes& boxes) {
   }
 }
 
+/// What queries of about ten hits find.
+template <class Peer, class Scene>
+double answer_of(const Peer& peer, const Scene& scene) {
+  std::size_t sum = 0;
+  for (const auto& q : scene.queries.at("10")) sum += peer.query(q);
+  return static_cast<double>(sum);
+}
+
+/// The squared distance from a point to a box.
+template <class T, std::size_t D>
+double squared_distance(const spatial::Point<T, D>& p, const spatial::Box<T, D>& box) {
+  double sum = 0;
+  for (std::size_t a = 0; a < D; ++a) {
+    const double gap = std::max({0.0, double{box.min[a]} - double{p[a]}, double{p[a]} - double{box.max[a]}});
+    sum += gap * gap;
+  }
+  return sum;
+}
+
 template <class T, std::size_t D, template <class, std::size_t> class P>
 void add(const std::string& data_name, std::size_t count, const std::string& type, const std::string& peer,
          bool packed) {
@@ -105,23 +125,37 @@ void add(const std::string& data_name, std::size_t count, const std::string& typ
     reg(std::string(packed ? "query_loaded_" : "query_") + size, [=](benchmark::State& state) {
       const auto& tree = built();
       const auto& queries = get().queries.at(size);
+      std::size_t sum = 0;
       for (auto _ : state) {
-        std::size_t sum = 0;
+        sum = 0;
         for (const auto& q : queries) sum += tree.query(q);
         benchmark::DoNotOptimize(sum);
       }
+      state.counters["answer"] = static_cast<double>(sum);
     });
   }
   if (packed) {
-    if constexpr (requires(const Peer& p, const spatial::Point<T, D>& at) { p.nearest(at, 1u); }) {
+    if constexpr (requires(const Peer& p, const spatial::Point<T, D>& at) {
+                    p.nearest(at, 1u, [](std::uint32_t) {});
+                  }) {
       for (const unsigned k : {1u, 10u, 100u}) {
         reg("nearest_" + std::to_string(k), [=](benchmark::State& state) {
           const auto& tree = built();
           for (auto _ : state) {
             std::size_t sum = 0;
-            for (const auto& p : get().points) sum += tree.nearest(p, k);
+            for (const auto& p : get().points) tree.nearest(p, k, [&](std::uint32_t i) { sum += i; });
             benchmark::DoNotOptimize(sum);
           }
+          // Which of several at the same distance is found is everybody's own business.
+          double answer = 0;
+          for (const auto& p : get().points) {
+            double farthest = 0;
+            tree.nearest(p, k, [&](std::uint32_t i) {
+              farthest = std::max(farthest, squared_distance(p, get().boxes[i]));
+            });
+            answer += farthest;
+          }
+          state.counters["answer"] = answer;
         });
       }
     }
@@ -129,7 +163,9 @@ void add(const std::string& data_name, std::size_t count, const std::string& typ
       if (data_name != "overlapping") {
         reg("pairs", [=](benchmark::State& state) {
           const auto& tree = built();
-          for (auto _ : state) benchmark::DoNotOptimize(tree.pairs(get().boxes));
+          std::size_t sum = 0;
+          for (auto _ : state) benchmark::DoNotOptimize(sum = tree.pairs(get().boxes));
+          state.counters["answer"] = static_cast<double>(sum);
         });
       }
     }
@@ -143,6 +179,7 @@ void add(const std::string& data_name, std::size_t count, const std::string& typ
       state.ResumeTiming();
       for (std::uint32_t i = 0; i < boxes.size(); i += 2) tree->erase(i, boxes[i]);
       state.PauseTiming();
+      state.counters["answer"] = answer_of(*tree, get());
       tree.reset();
       state.ResumeTiming();
     }
@@ -158,6 +195,10 @@ void add(const std::string& data_name, std::size_t count, const std::string& typ
         for (std::uint32_t i = 0; i < from.size(); i += step) tree->move(i, from[i], to[i]);
         forth = !forth;
       }
+      if (forth) {
+        for (std::uint32_t i = 0; i < s.boxes.size(); i += step) tree->move(i, s.boxes[i], s.moved[i]);
+      }
+      state.counters["answer"] = answer_of(*tree, s);
     });
   }
 }
