@@ -53,21 +53,21 @@ struct ImplicitWork {
   };
   /// Symmetric: xx, yy, zz, xy, yz, zx.
   using Block = std::array<double, 6>;
-  /// A node that an obstacle holds.
+  /// A node that touches an obstacle, or would without the contact.
   struct Contact {
     std::uint32_t node;
-    bool sticks;  ///< moves with the obstacle; else along its surface
     double friction;
     Eigen::Vector3d normal;
-    Eigen::Vector3d velocity;  ///< of a node that sticks; one that slides has its part along the normal
-    Eigen::Vector3d obstacle_velocity;
-    Eigen::Vector3d impulse;  ///< of friction on a node that slides
+    double least;              ///< velocity along the normal that keeps the node out
+    Eigen::Vector3d velocity;  ///< of the obstacle
+    double limit;              ///< for the impulse of friction
+    double stiffness;          ///< no less than any eigenvalue of the node's block of the diagonal
   };
   std::vector<Coupling> couplings;      ///< of all springs, one array after the other
   std::vector<Block> blocks, inverses;  ///< per node: mass and drag; the inverse of that with the springs'
   std::vector<PaddedVector> change, right, residual, preconditioned, direction, product;  ///< per node
   std::vector<Contact> contacts;
-  std::vector<std::uint8_t> touched;  ///< per node: whether it is in `contacts`
+  std::vector<std::uint8_t> touches;  ///< per node: whether it is in `contacts`
 };
 
 class Obstacles;
@@ -175,8 +175,9 @@ class Simulation {
   void multiply(const std::vector<PaddedVector>& vector);
   void leave_held(std::vector<PaddedVector>& vectors) const;
   void find_residual();
-  std::optional<Error> solve();
-  bool update_contacts(const Obstacles& obstacles, double time_step, bool late);
+  std::optional<Error> solve(double tolerance);
+  bool find_contacts(const Obstacles& obstacles);
+  std::optional<Error> settle_contacts(double tolerance);
   void keep_out(const Obstacles& obstacles, std::vector<PaddedVector>& velocities) const;
   [[nodiscard]] double contact_slack() const;
   [[nodiscard]] std::optional<Error> unsound_velocity(double speed_limit) const;

@@ -27,6 +27,7 @@ class Obstacles {
   [[nodiscard]] bool empty() const {
     return surroundings_->half_spaces.empty() && surroundings_->spheres.empty();
   }
+  [[nodiscard]] double time_step() const { return time_step_; }
   /// The obstacle that a node at `position` with `velocity` will be in deepest after the step.
   [[nodiscard]] std::optional<Meeting> deepest(const Eigen::Vector3d& position,
                                                const Eigen::Vector3d& velocity) const;

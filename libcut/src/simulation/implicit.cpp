@@ -14,6 +14,7 @@
 #include "mesh/vector3.hpp"
 #include "simulation/contact.hpp"
 #include "simulation/drag.hpp"
+#include "simulation/implicit_system.hpp"
 #include "simulation/kernels.hpp"
 #include "simulation/padded.hpp"
 
@@ -32,22 +33,9 @@ void add_square(Block& block, double factor, const Eigen::Vector3d& n) {
   block[5] += factor * n.z() * n.x();
 }
 
-PaddedVector product(const Block& b, const PaddedVector& v) {
-  return {b[0] * v.x + b[3] * v.y + b[5] * v.z, b[3] * v.x + b[1] * v.y + b[4] * v.z,
-          b[5] * v.x + b[4] * v.y + b[2] * v.z, 0};
-}
-
 PaddedVector product(const ImplicitWork::Coupling& c, const PaddedVector& v) {
   const double part = c.along * ((c.x * v.x + c.y * v.y) + c.z * v.z);
   return {c.across * v.x + part * c.x, c.across * v.y + part * c.y, c.across * v.z + part * c.z, 0};
-}
-
-/// @pre positive definite
-Block inverse(const Block& b) {
-  const double xx = b[1] * b[2] - b[4] * b[4], xy = b[4] * b[5] - b[3] * b[2], zx = b[3] * b[4] - b[1] * b[5];
-  const double factor = 1 / ((b[0] * xx + b[3] * xy) + b[5] * zx);
-  return {factor * xx, factor * (b[0] * b[2] - b[5] * b[5]), factor * (b[0] * b[1] - b[3] * b[3]),
-          factor * xy, factor * (b[3] * b[5] - b[0] * b[4]), factor * zx};
 }
 
 double dot(const Vectors& a, const Vectors& b) {
@@ -60,14 +48,6 @@ double dot(const Vectors& a, const Vectors& b) {
   return (sum.x + sum.y) + sum.z;
 }
 
-/// Σ |v|²/m: of impulses, twice the energy that they give to nodes at rest.
-double weighted_square(const Vectors& v, const std::vector<double>& inverse_mass) {
-  double sum = 0;
-  for (std::size_t n = 0; n < v.size(); ++n)
-    sum += inverse_mass[n] * ((v[n].x * v[n].x + v[n].y * v[n].y) + v[n].z * v[n].z);
-  return sum;
-}
-
 }  // namespace
 
 /// Matrix and right side of a step.
@@ -78,7 +58,7 @@ void Simulation::set_up_system(const HybridMesh& mesh, double time_step) {
     v->resize(nodes);
   w.blocks.resize(nodes);
   w.inverses.resize(nodes);
-  w.touched.assign(nodes, 0);
+  w.touches.assign(nodes, 0);
   w.contacts.clear();
   std::size_t count = 0;
   for (const SpringArrays* springs : spring_lists()) count += springs->nodes.size();
@@ -141,26 +121,19 @@ void Simulation::multiply(const std::vector<PaddedVector>& vector) {
 void Simulation::leave_held(std::vector<PaddedVector>& vectors) const {
   for (std::size_t n = 0; n < vectors.size(); ++n)
     if (!(inverse_mass_[n] > 0)) vectors[n] = {};
-  for (const ImplicitWork::Contact& contact : implicit_.contacts) {
-    PaddedVector& v = vectors[contact.node];
-    const double across = cut::dot(plain(v), contact.normal);
-    v = contact.sticks ? PaddedVector{} : v - padded(across * contact.normal);
-  }
 }
 
-/// `residual` = what is left of the right side, friction included.
+/// `residual` = what is left of the right side.
 void Simulation::find_residual() {
   ImplicitWork& w = implicit_;
   multiply(w.change);
   for (std::size_t n = 0; n < w.right.size(); ++n) w.residual[n] = w.right[n] - w.product[n];
-  for (const ImplicitWork::Contact& contact : w.contacts)
-    w.residual[contact.node] = w.residual[contact.node] + padded(contact.impulse);
   leave_held(w.residual);
 }
 
 /// Improves `change` until the residual is small. Free nodes then get the rest of it as an impulse: sums of
 /// pairs of forces, which conserve momentum whatever the tolerance is.
-std::optional<Error> Simulation::solve() {
+std::optional<Error> Simulation::solve(double tolerance) {
   ImplicitWork& w = implicit_;
   const auto precondition = [&] {
     for (std::size_t n = 0; n < w.residual.size(); ++n)
@@ -168,8 +141,7 @@ std::optional<Error> Simulation::solve() {
     leave_held(w.preconditioned);
   };
   find_residual();
-  const double enough =
-      surroundings.tolerance * surroundings.tolerance * weighted_square(w.right, inverse_mass_);
+  const double enough = tolerance * tolerance * weighted_square(w.right, inverse_mass_);
   const auto done = [&] { return weighted_square(w.residual, inverse_mass_) <= enough; };
   precondition();
   w.direction = w.preconditioned;
@@ -222,13 +194,25 @@ std::optional<Error> Simulation::implicit_velocities(const HybridMesh& mesh, dou
                                                      double speed_limit, const Obstacles& obstacles) {
   set_up_system(mesh, time_step);
   if (auto error = unsound_forces()) return error;
-  std::fill(implicit_.change.begin(), implicit_.change.end(), PaddedVector{});
-  if (auto error = solve()) return error;
-  constexpr int early_passes = 4, most_passes = 16;
-  for (int pass = 0; pass < most_passes && !obstacles.empty(); ++pass) {
-    if (!update_contacts(obstacles, time_step, pass >= early_passes)) break;
-    if (auto error = solve()) return error;
+  const auto solve_from_rest = [&](double tolerance) {
+    std::fill(implicit_.change.begin(), implicit_.change.end(), PaddedVector{});
+    return solve(tolerance);
+  };
+  // Rough solutions show most contacts.
+  const double exact = surroundings.tolerance, rough = std::max(exact, 1e-3);
+  bool touches = false;
+  if (!obstacles.empty()) {
+    if (auto error = solve_from_rest(rough)) return error;
+    touches = find_contacts(obstacles);
   }
+  if (!touches) {
+    if (auto error = solve_from_rest(exact)) return error;
+    touches = find_contacts(obstacles);
+  }
+  if (touches)
+    for (const double tolerance : {rough, exact}) do
+        if (auto error = settle_contacts(tolerance)) return error;
+      while (find_contacts(obstacles));
   return unsound_velocity(speed_limit);
 }
 
