@@ -29,7 +29,7 @@ Result<Mesh> load(const MeshSource& source, const std::filesystem::path& folder)
   Mesh mesh;
   if (!source.file.empty()) {
     auto read = read_clean_mesh(folder / source.file);
-    if (!read) return read.error();
+    if (!read) return Error{fmt::format("{}: {}", source.place, read.error().message)};
     mesh = std::move(*read);
     mesh.normals.clear();
     mesh.normal_triangles.clear();
