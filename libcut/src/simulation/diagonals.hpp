@@ -56,7 +56,8 @@ struct BlockForces {
   }
 };
 
-/// Forces are found and summed up for so many nodes in turn, so that they are still in a near cache.
+/// Forces are found and summed up for so many nodes in turn, and kept for twice as many, so that they are
+/// still in a near cache.
 inline constexpr std::size_t nodes_at_once = 1024;
 
 /// @tparam Loops  in diagonals.cpp and diagonals_avx2.cpp
@@ -69,7 +70,8 @@ bool advance_block(const SpringBlock& block, const VelocityUpdate* update, bool 
   BlockForces forces;
   forces.count = block.diagonals.size();
   forces.shift = static_cast<std::ptrdiff_t>(reach) - static_cast<std::ptrdiff_t>(first);
-  ColumnSpace space(own, forces.count + 1, end - first + reach);
+  const std::size_t kept = std::min(end - first, 2 * nodes_at_once) + reach;
+  ColumnSpace space(own, forces.count + 1, kept);
   forces.given = space.take();
   for (std::size_t k = 0; k < forces.count; ++k) {
     forces.offsets[k] = block.diagonals[k].offset;
@@ -81,6 +83,11 @@ bool advance_block(const SpringBlock& block, const VelocityUpdate* update, bool 
   bool sound = true;
   for (std::size_t from = first; from < end; from += nodes_at_once) {
     const std::size_t to = std::min(from + nodes_at_once, end);
+    if (forces.at(to) > static_cast<std::ptrdiff_t>(kept)) {  // what is still needed goes to the front
+      for (std::size_t k = 0; k < forces.count; ++k)
+        for (double* column : forces.columns[k]) std::copy_n(column + (kept - reach), reach, column);
+      forces.shift = static_cast<std::ptrdiff_t>(reach) - static_cast<std::ptrdiff_t>(from);
+    }
     for (std::size_t k = 0; k < forces.count; ++k) {
       const SpringDiagonal& d = block.diagonals[k];
       Loops::find_forces(d, from == first ? d.first : from, to, nodes, forces.shift, forces.columns[k]);

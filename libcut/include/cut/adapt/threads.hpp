@@ -45,14 +45,18 @@ class ThreadPool {
       const std::scoped_lock lock(mutex_);
       turn_ = nullptr;  // who wakes up only now has nothing to do
     }
-    while (at_work_ != 0) std::this_thread::yield();
+    for (int i = 0; at_work_ != 0; ++i)
+      if (i < patience)
+        rest();
+      else
+        std::this_thread::yield();
   }
 
  private:
   void help() {
     for (std::size_t done = 0;;) {
       // Loops often follow each other closely, and waking up takes longer than many a loop.
-      for (int i = 0; i < patience && loops_ == done; ++i) std::this_thread::yield();
+      for (int i = 0; i < patience && loops_ == done; ++i) rest();
       std::unique_lock lock(mutex_);
       begin_.wait(lock, [&] { return loops_ != done; });
       if (ends_) return;
@@ -67,7 +71,17 @@ class ThreadPool {
     }
   }
 
-  static constexpr int patience = 200;
+  /// Waits for a moment without giving the processor to another program, which would keep it for much longer
+  /// than a loop takes.
+  static void rest() {
+#if defined(__x86_64__)
+    __builtin_ia32_pause();
+#else
+    std::this_thread::yield();
+#endif
+  }
+
+  static constexpr int patience = 2000;
   std::mutex mutex_;
   std::condition_variable begin_;
   std::atomic<std::size_t> loops_ = 0;  ///< number of the loop, so that a helper takes part in it once
