@@ -75,6 +75,21 @@ struct Frame {
   template <class X>
   [[nodiscard]] LevelBounds<D> bounds(const X& low, const X& high) const {
     LevelBounds<D> result;
+#if defined(__GNUC__) && defined(__SSE2__)
+    // As level() does it, two at a time: without branches, which are taken at random for a query's bounds.
+    if constexpr (std::is_same_v<S, double> || std::is_same_v<S, float>) {
+      typedef S V __attribute__((vector_size(16)));
+      for (std::size_t a = 0; a < D; ++a) {
+        V v{static_cast<S>(low[a]), static_cast<S>(high[a])};
+        v = (v - origin[a]) * scale[a];
+        v = v > V{} ? v : V{};
+        v = v < V{} + 255 ? v : V{} + 255;
+        result.low[a] = static_cast<Level>(static_cast<int>(v[0]) - 128);
+        result.high[a] = static_cast<Level>(static_cast<int>(v[1]) - 128);
+      }
+      return result;
+    }
+#endif
     for (std::size_t a = 0; a < D; ++a) {
       result.low[a] = level(a, static_cast<S>(low[a]));
       result.high[a] = level(a, static_cast<S>(high[a]));

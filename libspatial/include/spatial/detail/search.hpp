@@ -132,8 +132,8 @@ bool search(const Core& core, const Bound& predicate, Visit&& visit, Counts&& co
       const ChildRef ref = waiting.leaf(i);
       if (i + 1 < waiting.leaf_count()) {
         const auto& soon = core.leaf(waiting.leaf(i + 1).index());
-        const std::uint32_t count = soon.count < level_bits ? soon.count : level_bits;
-        const std::size_t end = soon.boxes_offset(count, soon.rows);
+        // As much as most leaves have; to count would be a branch that goes wrong.
+        constexpr std::size_t end = Core::LeafType::boxes_offset(Core::leaf_limit / 2, 2 * Core::dimension);
         for (std::size_t at = 0; at < end; at += 64) prefetch(soon.data + at);
       }
       const auto& leaf = core.leaf(ref.index());
