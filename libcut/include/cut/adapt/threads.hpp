@@ -1,6 +1,7 @@
 /// @file
 /// An Executor over threads of its own, for programs that have no scheduler. Nothing else includes this.
 #pragma once
+#include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <memory>
@@ -16,8 +17,8 @@ namespace cut {
 /// of n has n − 1 threads. One loop at a time: to be used from one thread, and not from within a turn.
 class ThreadPool {
  public:
-  explicit ThreadPool(std::size_t threads) {
-    for (std::size_t i = 1; i < threads; ++i) helpers_.emplace_back([this] { help(); });
+  explicit ThreadPool(std::size_t threads) : parts_(std::max<std::size_t>(1, threads)) {
+    for (std::size_t i = 1; i < threads; ++i) helpers_.emplace_back([this, i] { help(i); });
   }
   ~ThreadPool() {
     {
@@ -35,12 +36,14 @@ class ThreadPool {
     {
       const std::scoped_lock lock(mutex_);
       turn_ = &turn;
-      count_ = count;
-      next_ = 0;
+      for (std::size_t p = 0; p < parts_.size(); ++p) {
+        parts_[p].next = p * count / parts_.size();
+        parts_[p].end = (p + 1) * count / parts_.size();
+      }
       ++loops_;
     }
     begin_.notify_all();
-    for (std::size_t i = next_++; i < count; i = next_++) turn(i);
+    take_turns(0, turn);
     {
       const std::scoped_lock lock(mutex_);
       turn_ = nullptr;  // who wakes up only now has nothing to do
@@ -53,7 +56,22 @@ class ThreadPool {
   }
 
  private:
-  void help() {
+  /// Turns that are next to each other, of which each thread has the same in every loop: what they work on is
+  /// then in its cache.
+  struct alignas(64) Part {
+    std::atomic<std::size_t> next = 0;
+    std::size_t end = 0;
+  };
+
+  /// Those of the own part, then what others have left of theirs.
+  void take_turns(std::size_t thread, const Executor::Turn& turn) {
+    for (std::size_t k = 0; k < parts_.size(); ++k) {
+      Part& part = parts_[(thread + k) % parts_.size()];
+      for (std::size_t i = part.next++; i < part.end; i = part.next++) turn(i);
+    }
+  }
+
+  void help(std::size_t thread) {
     for (std::size_t done = 0;;) {
       // Loops often follow each other closely, and waking up takes longer than many a loop.
       for (int i = 0; i < patience && loops_ == done; ++i) rest();
@@ -64,9 +82,8 @@ class ThreadPool {
       if (turn_ == nullptr) continue;
       ++at_work_;
       const Executor::Turn& turn = *turn_;
-      const std::size_t count = count_;
       lock.unlock();
-      for (std::size_t i = next_++; i < count; i = next_++) turn(i);
+      take_turns(thread, turn);
       --at_work_;
     }
   }
@@ -84,11 +101,10 @@ class ThreadPool {
   static constexpr int patience = 2000;
   std::mutex mutex_;
   std::condition_variable begin_;
-  std::atomic<std::size_t> loops_ = 0;  ///< number of the loop, so that a helper takes part in it once
-  std::atomic<std::size_t> next_ = 0;
+  std::atomic<std::size_t> loops_ = 0;    ///< number of the loop, so that a helper takes part in it once
+  std::vector<Part> parts_;               ///< one for each thread
   std::atomic<std::size_t> at_work_ = 0;  ///< helpers that take part in the loop
   const Executor::Turn* turn_ = nullptr;  ///< of the loop that runs
-  std::size_t count_ = 0;
   bool ends_ = false;
   std::vector<std::thread> helpers_;
 };
