@@ -70,7 +70,7 @@ void speeds() {
     Simulated ours(mesh), threads(mesh, 2);
     msdm::PlainCloth plain(mesh);
     const std::size_t springs = ours.simulation.spring_count();
-    const std::size_t steps = std::max<std::size_t>(4, 1'000'000 / springs);
+    const std::size_t steps = std::max<std::size_t>(4, 300'000 / springs);
     const auto times = [steps](auto step) {
       return [steps, step] {
         for (std::size_t i = 0; i < steps; ++i) step();
