@@ -123,6 +123,27 @@ TEST_CASE("a file that does not say what it is for is named") {
   CHECK(count("examples/cut.cpp", "#include <cut/ids.hpp>\n") == 0);
 }
 
+TEST_CASE("a type that two headers define is found, unless their namespaces differ") {
+  const std::string path = "libcut/src/lattice/twin.hpp";
+  const auto count = [&](const std::string& space, const std::string& type) {
+    SourceTree tree = sound_tree();
+    const auto in = [](const std::string& name, const std::string& body) {
+      return "/// A type.\nnamespace " + name + " {\n" + body + "\n}\n";
+    };
+    tree["libcut/src/mesh/original.hpp"] =
+        in("cut", "struct Walk {\n  struct Gate {};\n};\nclass Way;\nclass Door : Walk {};");
+    tree[path] = in(space, type);
+    const auto found = violations(tree);
+    for (const std::string& violation : found) CHECK(violation.find(": defines cut::") != std::string::npos);
+    return found.size();
+  };
+  CHECK(count("cut", "class Walk {};") == 1);
+  CHECK(count("cut", "struct alignas(32) Door final {};") == 1);
+  CHECK(count("cut", "class Walk;") == 0);
+  CHECK(count("cut", "class Gate {};\nclass Way {};") == 0);
+  CHECK(count("cut::lattice", "class Walk {};") == 0);
+}
+
 TEST_CASE("what a comment says is no include") {
   SourceTree tree = sound_tree();
   tree["bench/progressive.cpp"] += "// #include \"lattice/walk.hpp\"\n";

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <regex>
 #include <set>
 
 namespace architecture {
@@ -151,6 +152,19 @@ void find_circles(const std::map<std::string, std::vector<Include>>& graph, cons
   state[path] = 2;
 }
 
+/// The types that a header defines outside of other types, with the namespace of its first line that has one.
+std::vector<std::string> types_of(const std::string& content) {
+  static const std::regex space("(^|\\n)namespace ([a-z:]+) \\{");
+  static const std::regex type(
+      "(^|\\n)(struct|class) (alignas\\([0-9]+\\) )?(\\w+)( final)?( : [^{;]*)?( \\{)");
+  std::smatch found;
+  const std::string in = std::regex_search(content, found, space) ? found[2].str() + "::" : "";
+  std::vector<std::string> names;
+  for (std::sregex_iterator i(content.begin(), content.end(), type), end; i != end; ++i)
+    names.push_back(in + (*i)[4].str());
+  return names;
+}
+
 }  // namespace
 
 std::vector<std::string> violations(const SourceTree& tree) {
@@ -168,6 +182,14 @@ std::vector<std::string> violations(const SourceTree& tree) {
       if (const std::string rule = broken_rule(path, include); !rule.empty())
         found.push_back(path + ":" + std::to_string(include.line) + ": includes " + include.name + ": " +
                         rule);
+  }
+  // A linker takes one of two functions of the same name, also where they belong to different types.
+  std::map<std::string, std::string> header_of;
+  for (const auto& [path, content] : tree) {
+    if (!in_library(path) || !path.ends_with(".hpp")) continue;
+    for (const std::string& type : types_of(content))
+      if (const auto [first, added] = header_of.try_emplace(type, path); !added && first->second != path)
+        found.push_back(path + ": defines " + type + ", as " + first->second + " does");
   }
   std::map<std::string, int> state;
   std::vector<std::string> way;

@@ -48,24 +48,24 @@ constexpr std::size_t most_edges = 8;
 
 }  // namespace
 
-struct Surroundings::Neighbour {
+struct Neighbourhood::Neighbour {
   TriangleWork work;
   PolygonNodes nodes;
 };
 
 /// Unfolds triangle after triangle, away from the end at `p`, as far as δc.
-class Surroundings::Walk {
+class Neighbourhood::Walk {
  public:
-  Walk(Surroundings& surroundings, LatticePoint p, LatticePoint other, bool recent, double distance)
-      : surroundings_(surroundings),
-        mesh_(surroundings.mesh_),
+  Walk(Neighbourhood& neighbourhood, LatticePoint p, LatticePoint other, bool recent, double distance)
+      : neighbourhood_(neighbourhood),
+        mesh_(neighbourhood.mesh_),
         p_(p),
         other_(other),
         best_recent_(recent),
         best_distance_(distance) {}
 
   std::optional<NodeAcross> run(std::uint32_t polygon) {
-    const TriangleWork& work = surroundings_.work_;
+    const TriangleWork& work = neighbourhood_.work_;
     const PlaneTriangle corners = lattice::laid_out(work.metric);
     from_ = in_plane(corners, p_);
     leave(work, corners, polygon, 3, work.distances);
@@ -126,7 +126,7 @@ class Surroundings::Walk {
         for_each_section(mesh_, beyond, side, [&](std::size_t other, std::uint32_t value) {
           if (other == section) polygon_beyond = value;
         });
-        Neighbour& neighbour = surroundings_.neighbour(beyond);
+        Neighbour& neighbour = neighbourhood_.neighbour(beyond);
         gates_.push_back({&work, &neighbour.work, edge, first, last, point(first), point(last), low, high,
                           polygon_beyond});
         enter(neighbour, side, start, end, corners[last_corner(i)], distances);
@@ -161,7 +161,7 @@ class Surroundings::Walk {
                 const MergeDistances& distances) {
     const ArrangementNode& target = work.before.nodes[node];
     const PlanePoint to = in_plane(corners, target.point);
-    const bool recent = surroundings_.context_.recent(target.stamp);
+    const bool recent = neighbourhood_.context_.recent(target.stamp);
     const double distance = std::sqrt(dot(to - from_, to - from_));
     if (distance > (recent ? distances.cut : distances.node)) return;
     if (best_recent_ > recent || (best_recent_ == recent && best_distance_ <= distance)) return;
@@ -218,7 +218,7 @@ class Surroundings::Walk {
     return !visible(a, b, work.before.edges, [&](std::uint32_t n) { return work.before.nodes[n].point; });
   }
 
-  Surroundings& surroundings_;
+  Neighbourhood& neighbourhood_;
   const HybridMesh& mesh_;
   LatticePoint p_;
   LatticePoint other_;
@@ -229,11 +229,11 @@ class Surroundings::Walk {
   std::optional<NodeAcross> best_;
 };
 
-Surroundings::Surroundings(const HybridMesh& mesh, const TriangleWork& work, const CutContext& context)
+Neighbourhood::Neighbourhood(const HybridMesh& mesh, const TriangleWork& work, const CutContext& context)
     : mesh_(mesh), work_(work), context_(context) {}
-Surroundings::~Surroundings() = default;
+Neighbourhood::~Neighbourhood() = default;
 
-Surroundings::Neighbour& Surroundings::neighbour(AncestorId ancestor) {
+Neighbourhood::Neighbour& Neighbourhood::neighbour(AncestorId ancestor) {
   for (const auto& n : neighbours_)
     if (n->work.ancestor == ancestor) return *n;
   TriangleWork work = make_work(mesh_, ancestor, context_.distances);
@@ -242,8 +242,8 @@ Surroundings::Neighbour& Surroundings::neighbour(AncestorId ancestor) {
   return *neighbours_.back();
 }
 
-std::optional<NodeAcross> Surroundings::nearest_node(LatticePoint p, LatticePoint other,
-                                                     std::uint32_t polygon, bool recent, double distance) {
+std::optional<NodeAcross> Neighbourhood::nearest_node(LatticePoint p, LatticePoint other,
+                                                      std::uint32_t polygon, bool recent, double distance) {
   return Walk(*this, p, other, recent, distance).run(polygon);
 }
 

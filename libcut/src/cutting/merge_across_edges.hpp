@@ -24,10 +24,10 @@ struct NodeAcross {
 
 /// What a triangle's line ends see in its neighbours. Arrangements of neighbours are set up when they are
 /// first needed.
-class Surroundings {
+class Neighbourhood {
  public:
-  Surroundings(const HybridMesh& mesh, const TriangleWork& work, const CutContext& context);
-  ~Surroundings();
+  Neighbourhood(const HybridMesh& mesh, const TriangleWork& work, const CutContext& context);
+  ~Neighbourhood();
 
   /// The node across edges that is better than the best one of the triangle itself: a recent one within δc,
   /// else any within δn, by distance. The way to it is straight, and crosses no cut.

@@ -152,7 +152,7 @@ class EndpointMerger {
   TriangleWork& work_;
   const CutContext& context_;
   PolygonNodes nodes_;
-  Surroundings across_;
+  Neighbourhood across_;
 };
 
 }  // namespace
