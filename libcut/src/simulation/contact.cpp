@@ -1,8 +1,6 @@
 // How nodes meet obstacles, see contact.hpp.
 #include "simulation/contact.hpp"
 
-#include <algorithm>
-
 #include "mesh/vector3.hpp"
 
 namespace cut {
@@ -12,6 +10,14 @@ namespace {
 constexpr int most_rounds = 8;
 
 }  // namespace
+
+Eigen::Vector3d braked(const Eigen::Vector3d& velocity, const Eigen::Vector3d& obstacle,
+                       const Eigen::Vector3d& normal, double most) {
+  const Eigen::Vector3d relative = velocity - obstacle;
+  const Eigen::Vector3d along = relative - dot(relative, normal) * normal;
+  const double speed = length(along);
+  return velocity - (speed > most ? most / speed : 1.0) * along;
+}
 
 Obstacles::Obstacles(const Surroundings& surroundings, double time_step, double slack)
     : surroundings_(&surroundings), time_step_(time_step), slack_(slack) {}
@@ -48,10 +54,7 @@ Eigen::Vector3d Obstacles::kept_out(const Eigen::Vector3d& position, Eigen::Vect
     if (!met) break;
     const double push = met->depth / time_step_;
     velocity += push * met->normal;
-    const Eigen::Vector3d relative = velocity - met->velocity;
-    const Eigen::Vector3d along = relative - dot(relative, met->normal) * met->normal;
-    const double speed = length(along);
-    if (with_friction && speed > 0) velocity -= std::min(1.0, met->friction * push / speed) * along;
+    if (with_friction) velocity = braked(velocity, met->velocity, met->normal, met->friction * push);
   }
   return velocity;
 }

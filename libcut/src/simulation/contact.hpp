@@ -18,6 +18,11 @@ struct Meeting {
   double friction;
 };
 
+/// What friction leaves of a velocity: it takes up to `most` from the speed along the surface of an obstacle
+/// that moves with `obstacle`, never more than there is.
+Eigen::Vector3d braked(const Eigen::Vector3d& velocity, const Eigen::Vector3d& obstacle,
+                       const Eigen::Vector3d& normal, double most);
+
 /// Obstacles as a step of length h sees them.
 class Obstacles {
  public:

@@ -209,10 +209,12 @@ std::optional<Error> Simulation::implicit_velocities(const HybridMesh& mesh, dou
     if (auto error = solve_from_rest(exact)) return error;
     touches = find_contacts(obstacles);
   }
-  if (touches)
-    for (const double tolerance : {rough, exact}) do
-        if (auto error = settle_contacts(tolerance)) return error;
-      while (find_contacts(obstacles));
+  if (!touches) return unsound_velocity(speed_limit);
+  for (const double tolerance : {rough, exact}) {
+    do {
+      if (auto error = settle_contacts(tolerance)) return error;
+    } while (find_contacts(obstacles));
+  }
   return unsound_velocity(speed_limit);
 }
 

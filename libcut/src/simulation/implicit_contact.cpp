@@ -36,10 +36,7 @@ Eigen::Vector3d after_contact(Contact& contact, Eigen::Vector3d velocity, double
   const double push = std::max(0.0, contact.least - dot(velocity, n));
   contact.limit += share * (contact.friction * push / mobility - contact.limit);
   velocity += push * n;
-  const Eigen::Vector3d relative = velocity - contact.velocity;
-  const Eigen::Vector3d along = relative - dot(relative, n) * n;
-  const double speed = length(along), brake = contact.limit * mobility;
-  return velocity - (speed > brake ? brake / speed : 1.0) * along;
+  return braked(velocity, contact.velocity, n, contact.limit * mobility);
 }
 
 /// The law of contact makes the limit of friction a multiple of the push. With high friction the two may
@@ -95,8 +92,8 @@ std::optional<Error> Simulation::settle_contacts(double tolerance) {
       next[c.node] = padded(after - start);
       w.residual[c.node] = padded((after - before) / mobility);
     }
-    for (std::size_t n = 0; n < nodes; ++n)
-      if (!(inverse_mass_[n] > 0)) next[n] = w.residual[n] = {};
+    leave_held(next);
+    leave_held(w.residual);
     if (weighted_square(w.residual, inverse_mass_) <= enough) break;
     double downhill = 0;
     for (std::size_t n = 0; n < nodes; ++n) downhill += dot(plain(w.residual[n]), plain(next[n] - last[n]));

@@ -7,6 +7,9 @@
 #include "mesh/vector3.hpp"
 
 namespace cut {
+
+using lattice::PlanePoint;
+
 namespace {
 
 /// Products of the two edges that leave corner 0: a quadratic form on plane vectors.
@@ -125,7 +128,7 @@ std::optional<std::array<PlanePoint, 2>> tear_line(const HybridMesh& mesh, Ances
 
   const PlanePoint from = plane_point(lattice_corner(start.side));
   const PlanePoint to = plane_point(lattice_corner(next_corner(start.side)));
-  const PlanePoint along{to.x - from.x, to.y - from.y};
+  const PlanePoint along = to - from;
   PlanePoint direction = least_stretched(rest, now);
   // A line along the side would not divide it: at less than 30 degrees it leads across the side instead.
   const double slope = rest.product(direction, along);
@@ -139,15 +142,15 @@ std::optional<std::array<PlanePoint, 2>> tear_line(const HybridMesh& mesh, Ances
   for_each_side(mesh.arrangement(t), polygon, [&](LatticePoint p, LatticePoint q) {
     if (p[opposite] == 0 && q[opposite] == 0) return;  // the side that the line starts at
     const PlanePoint a = plane_point(p), b = plane_point(q);
-    const PlanePoint ab{b.x - a.x, b.y - a.y}, to_a{a.x - begin.x, a.y - begin.y};
-    const double area = direction.x * ab.y - direction.y * ab.x;
+    const PlanePoint ab = b - a, to_a = a - begin;
+    const double area = cross(direction, ab);
     if (area == 0) return;
-    const double way = (to_a.x * ab.y - to_a.y * ab.x) / area;
-    const double place = (to_a.x * direction.y - to_a.y * direction.x) / area;
+    const double way = cross(to_a, ab) / area;
+    const double place = cross(to_a, direction) / area;
     if (way > 0 && place > -1e-9 && place < 1 + 1e-9) nearest = std::min(nearest, way);
   });
   if (!std::isfinite(nearest)) return std::nullopt;
-  return std::array{begin, PlanePoint{begin.x + nearest * direction.x, begin.y + nearest * direction.y}};
+  return std::array{begin, begin + nearest * direction};
 }
 
 }  // namespace cut

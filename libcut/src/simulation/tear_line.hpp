@@ -5,14 +5,9 @@
 #include <optional>
 
 #include "cut/hybrid_mesh.hpp"
+#include "lattice/plane.hpp"
 
 namespace cut {
-
-/// A point of a triangle as plane coordinates b1 / N, b2 / N.
-struct PlanePoint {
-  double x = 0;
-  double y = 0;
-};
 
 /// Where a line begins: the point of side `side` (counterclockwise) that is t lattice units from its start.
 struct TearStart {
@@ -27,8 +22,8 @@ std::optional<TearStart> tear_start(const HybridMesh& mesh, AncestorId t, std::s
                                     std::size_t side, bool fresh);
 
 /// From the start straight through the polygon to its opposite contour, across the direction of the greatest
-/// stretch. Nothing when the triangle has no area in space.
-std::optional<std::array<PlanePoint, 2>> tear_line(const HybridMesh& mesh, AncestorId t, std::size_t polygon,
-                                                   TearStart start);
+/// stretch. In coordinates b1 / N, b2 / N. Nothing when the triangle has no area in space.
+std::optional<std::array<lattice::PlanePoint, 2>> tear_line(const HybridMesh& mesh, AncestorId t,
+                                                            std::size_t polygon, TearStart start);
 
 }  // namespace cut

@@ -90,7 +90,7 @@ TriangleMesh tears(const HybridMesh& mesh, double limit, const MergeDistances& d
     const Eigen::Vector3d normal = cross(corner(1) - corner(0), corner(2) - corner(0));
     const Eigen::Vector3d up = normal * (distances.edge / length(normal));
     const auto first = static_cast<std::uint32_t>(cutter.positions.size());
-    for (const PlanePoint p : *line) {
+    for (const lattice::PlanePoint p : *line) {
       const Eigen::Vector3d place = (1 - p.x - p.y) * corner(0) + p.x * corner(1) + p.y * corner(2);
       cutter.positions.push_back(place - up);
       cutter.positions.push_back(place + up);
