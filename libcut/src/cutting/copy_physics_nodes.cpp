@@ -75,6 +75,8 @@ struct Parts {
   std::vector<Copy> copies;
   std::vector<Index> copy_of;  ///< per fragment around the node
   std::vector<Index> order;    ///< of the copies that had the same node, the first keeps it
+  bool copied = false;
+  std::vector<TriangleId> changed;  ///< fragments that got another node
 };
 
 /// Calls visit(triangle, corner, polygon, number) for the fragments around a node.
@@ -117,8 +119,8 @@ Parts parts_of(const HybridMesh& mesh, AncestorNodeId node) {
   return parts;
 }
 
-/// Makes the copies.
-void copy_node(HybridMesh& mesh, AncestorNodeId node, Parts& parts, ChangeLog& log) {
+/// Makes the copies, and says whether there are any.
+bool copy_node(HybridMesh& mesh, AncestorNodeId node, Parts& parts, ChangeLog& log) {
   bool copied = false;
   for (std::size_t i = 0; i < parts.order.size(); ++i) {
     Copy& copy = parts.copies[parts.order[i]];
@@ -133,14 +135,58 @@ void copy_node(HybridMesh& mesh, AncestorNodeId node, Parts& parts, ChangeLog& l
     log.node_copies.push_back({copy.now, copy.old});
     copied = true;
   }
-  if (!copied) return;
+  return copied;
+}
+
+/// Gives fragments around the node their copies.
+void give_copies(HybridMesh& mesh, AncestorNodeId node, Parts& parts) {
   for_each_fragment(mesh, node, [&](AncestorId t, std::size_t corner, Index polygon, Index number) {
     const TriangleId triangle = mesh.fragment(t, polygon);
     NodeId& now = mesh.buffers.triangles[triangle.index()].nodes[corner];
     if (now == parts.copies[parts.copy_of[number]].now) return;
     now = parts.copies[parts.copy_of[number]].now;
-    log.triangles.push_back(triangle.value);
+    parts.changed.push_back(triangle);
   });
+}
+
+/// Two nodes that a spring joins, in the direction of its edge.
+using Pair = std::array<NodeId, 2>;
+
+/// What an edge's springs lack.
+struct EdgeSprings {
+  std::vector<Pair> wanted;                    ///< pairs that have no spring
+  std::vector<std::pair<Pair, SpringId>> old;  ///< all springs, and ...
+  std::vector<SpringId> idle;                  ///< ... those whose pair is gone
+};
+
+EdgeSprings springs_of(const HybridMesh& mesh, AncestorEdgeId e) {
+  EdgeSprings result;
+  std::vector<Pair>& wanted = result.wanted;
+  for (const AncestorId t : mesh.ancestors.edges[e.index()].triangles) {
+    if (!t.valid()) continue;
+    const std::size_t i = mesh.ancestors.local_edge(t, e);
+    const bool reversed = mesh.ancestors.reversed(t, i);
+    for (std::size_t p = 0; p < mesh.fragment_count(t); ++p) {
+      const auto& corners = mesh.buffers.triangles[mesh.fragment(t, p).index()].nodes;
+      Pair pair{corners[i], corners[next_corner(i)]};
+      if (reversed) std::swap(pair[0], pair[1]);
+      wanted.push_back(pair);
+    }
+  }
+  lattice::sort_unique(wanted);
+  const auto look_at = [&](SpringId s) {
+    const Pair& pair = result.old.emplace_back(mesh.buffers.springs[s.index()].nodes, s).first;
+    const auto found = std::find(wanted.begin(), wanted.end(), pair);
+    if (found == wanted.end())
+      result.idle.push_back(s);
+    else
+      wanted.erase(found);
+  };
+  if (const EdgeState* state = mesh.edge_state(e))
+    for (const SpringId s : state->springs) look_at(s);
+  else
+    look_at(SpringId{e.index()});
+  return result;
 }
 
 }  // namespace
@@ -149,10 +195,16 @@ void copy_physics_nodes(HybridMesh& mesh, const std::vector<AncestorNodeId>& nod
                         ChangeLog& log) {
   std::vector<Parts> parts(nodes.size());
   executor.for_each(nodes.size(), [&](std::size_t i) { parts[i] = parts_of(mesh, nodes[i]); });
-  for (std::size_t i = 0; i < nodes.size(); ++i) copy_node(mesh, nodes[i], parts[i], log);
+  for (std::size_t i = 0; i < nodes.size(); ++i) parts[i].copied = copy_node(mesh, nodes[i], parts[i], log);
+  executor.for_each(nodes.size(), [&](std::size_t i) {
+    if (parts[i].copied) give_copies(mesh, nodes[i], parts[i]);
+  });
+  for (const Parts& part : parts)
+    for (const TriangleId t : part.changed) log.triangles.push_back(t.value);
 }
 
-void update_springs(HybridMesh& mesh, const std::vector<AncestorNodeId>& nodes, ChangeLog& log) {
+void update_springs(HybridMesh& mesh, const std::vector<AncestorNodeId>& nodes, const Executor& executor,
+                    ChangeLog& log) {
   std::vector<AncestorEdgeId> edges;
   for (const AncestorNodeId n : nodes)
     for (const AncestorId t : mesh.ancestors.triangles_around(n))
@@ -161,41 +213,19 @@ void update_springs(HybridMesh& mesh, const std::vector<AncestorNodeId>& nodes, 
         edges.push_back(mesh.ancestors.triangles[t.index()].edges[i]);
   lattice::sort_unique(edges);
 
-  using Pair = std::array<NodeId, 2>;
+  std::vector<EdgeSprings> all(edges.size());
+  executor.for_each(edges.size(), [&](std::size_t i) { all[i] = springs_of(mesh, edges[i]); });
+
   auto& springs = mesh.buffers.springs;
   const std::size_t first_copy = mesh.buffers.nodes.size() - log.node_copies.size();
   const auto before_cut = [&](NodeId n) {
     return n.index() < first_copy ? n : log.node_copies[n.index() - first_copy].source;
   };
-  std::vector<Pair> wanted;
-  for (const AncestorEdgeId e : edges) {
-    wanted.clear();
-    for (const AncestorId t : mesh.ancestors.edges[e.index()].triangles) {
-      if (!t.valid()) continue;
-      const std::size_t i = mesh.ancestors.local_edge(t, e);
-      const bool reversed = mesh.ancestors.reversed(t, i);
-      for (std::size_t p = 0; p < mesh.fragment_count(t); ++p) {
-        const auto& corners = mesh.buffers.triangles[mesh.fragment(t, p).index()].nodes;
-        Pair pair{corners[i], corners[next_corner(i)]};
-        if (reversed) std::swap(pair[0], pair[1]);
-        wanted.push_back(pair);
-      }
-    }
-    lattice::sort_unique(wanted);
-    if (wanted.size() == 1 && mesh.edge_state(e) == nullptr && springs[e.index()].nodes == wanted[0])
-      continue;
-    EdgeState& state = edge_state_for_writing(mesh, e);
-    // Springs whose pair is gone: the first pair that comes from theirs gets the entry.
-    std::vector<std::pair<Pair, SpringId>> old;
-    std::vector<SpringId> idle;
-    for (const SpringId s : state.springs) {
-      old.emplace_back(springs[s.index()].nodes, s);
-      const auto found = std::find(wanted.begin(), wanted.end(), old.back().first);
-      if (found == wanted.end())
-        idle.push_back(s);
-      else
-        wanted.erase(found);
-    }
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    auto& [wanted, old, idle] = all[i];
+    if (wanted.empty() && idle.empty()) continue;
+    EdgeState& state = edge_state_for_writing(mesh, edges[i]);
+    // The first pair that comes from that of an idle spring gets its entry.
     for (const Pair& pair : wanted) {
       const auto source = std::find_if(old.begin(), old.end(), [&](const auto& spring) {
                             return spring.first == Pair{before_cut(pair[0]), before_cut(pair[1])};
@@ -206,7 +236,7 @@ void update_springs(HybridMesh& mesh, const std::vector<AncestorNodeId>& nodes, 
         springs[s.index()].nodes = pair;
       } else {
         s = SpringId{springs.size()};
-        springs.push_back({pair, e});
+        springs.push_back({pair, edges[i]});
         state.springs.push_back(s);
         log.spring_copies.push_back({s, source});
       }

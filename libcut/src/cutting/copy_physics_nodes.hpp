@@ -19,6 +19,7 @@ void copy_physics_nodes(HybridMesh& mesh, const std::vector<AncestorNodeId>& nod
 
 /// Brings the springs on all edges of the triangles around these nodes up to date: one for each pair of
 /// physics nodes.
-void update_springs(HybridMesh& mesh, const std::vector<AncestorNodeId>& nodes, ChangeLog& log);
+void update_springs(HybridMesh& mesh, const std::vector<AncestorNodeId>& nodes, const Executor& executor,
+                    ChangeLog& log);
 
 }  // namespace cut

@@ -106,6 +106,12 @@ DisjointPolygons arrange(const HybridMesh& mesh, TriangleWork& work, const CutCo
   return weld_slivers(mesh, work);
 }
 
+/// Frees what the entries hold, which is many small pieces, on all threads.
+template <class T>
+void give_back(std::vector<T>& list, const Executor& executor) {
+  executor.for_each(list.size(), [&](std::size_t i) { const T done = std::move(list[i]); });
+}
+
 /// Notes where the ends of a work's lines that were not on a side were detected, and where they went; and
 /// where lines have vanished without a node.
 void remember_centres(const TriangleWork& work, const Arrangement& now, ClusterCentres& centres) {
@@ -162,7 +168,7 @@ Result<Changes> Cutter::cut(HybridMesh& mesh, const TriangleMesh& cutter) {
   executor.for_each(works.size(), [&](std::size_t i) { merge_cut_endpoints(mesh, works[i], context); });
   continue_lines(mesh, works, context);
   ClusterCentres next_centres;
-  merge_on_physics_edges(mesh, works, context, next_centres);
+  merge_on_physics_edges(mesh, works, context, executor, next_centres);
   watch.lap(timings.merge_endpoints);
 
   std::vector<DisjointPolygons> polygons(works.size());
@@ -197,18 +203,20 @@ Result<Changes> Cutter::cut(HybridMesh& mesh, const TriangleMesh& cutter) {
 
   lattice::sort_unique(touched);
   copy_physics_nodes(mesh, touched, executor, log);
-  update_springs(mesh, touched, log);
+  update_springs(mesh, touched, executor, log);
   const auto come_apart = copy_boundary_nodes(mesh, works, executor, log);
   watch.lap(timings.reconnect);
 
   triangulate_polygons(mesh, works, executor, log);
   triangulate_again(mesh, come_apart, log);
-  update_vertex_nodes(mesh, log);
+  update_vertex_nodes(mesh, executor, log);
   mesh.state = new_state();
   memory_->broad_phase.add(mesh, log.triangle_copies);
   Changes changes = publish(mesh, std::move(log), executor);
   changes.version_before = mesh.topology_version;
   changes.version_after = ++mesh.topology_version;
+  give_back(works, executor);
+  give_back(polygons, executor);
   watch.lap(timings.publish);
   return changes;
 }

@@ -33,14 +33,20 @@ class PolygonsByFragment {
   std::vector<std::pair<TriangleId, std::uint32_t>> sorted_;
 };
 
+/// What detection finds on one ancestor.
+struct Detected {
+  TriangleWork work;                ///< without lines when none of them cuts
+  std::vector<DetectedLine> lines;  ///< before they were clipped
+};
+
 /// @param candidates those of one ancestor, sorted
-Detection detect_on_ancestor(const HybridMesh& mesh, const std::vector<CutterFace>& faces,
-                             std::span<const CandidatePair> candidates, double slack,
-                             const MergeDistances& distances) {
+Detected detect_on_ancestor(const HybridMesh& mesh, const std::vector<CutterFace>& faces,
+                            std::span<const CandidatePair> candidates, double slack,
+                            const MergeDistances& distances) {
   const AncestorId ancestor = mesh.buffers.triangles[candidates[0].triangle.index()].ancestor;
   const Arrangement* arrangement = mesh.arrangement(ancestor);
   PolygonsByFragment polygons(arrangement);
-  Detection detection;
+  Detected detected;
   std::vector<LatticePoint> points;
   std::vector<CuttingLine> lines;
   for (const CandidatePair& c : candidates) {
@@ -51,18 +57,17 @@ Detection detect_on_ancestor(const HybridMesh& mesh, const std::vector<CutterFac
     for (std::size_t k = 0; k + 1 < points.size(); ++k)
       lines.push_back({polygon, {points[k]}, {points[k + 1]}});
   }
-  if (lines.empty()) return detection;
+  if (lines.empty()) return detected;
   join_collinear_lines(lines);
-  for (const CuttingLine& l : lines) detection.lines.push_back({ancestor, l.a.point, l.b.point});
-  TriangleWork work = make_work(mesh, ancestor, distances);
+  for (const CuttingLine& l : lines) detected.lines.push_back({ancestor, l.a.point, l.b.point});
+  TriangleWork& work = detected.work = make_work(mesh, ancestor, distances);
   if (arrangement != nullptr && arrangement->polygons.size() > 1) {
     for (const CuttingLine& l : lines)
       clip_to_polygon(work.before, l.polygon, l.a.point, l.b.point, work.lines);
   } else {
     work.lines = std::move(lines);
   }
-  if (!work.lines.empty()) detection.works.push_back(std::move(work));
-  return detection;
+  return detected;
 }
 
 }  // namespace
@@ -116,17 +121,19 @@ Detection detect_cutting_lines(const HybridMesh& mesh, const TriangleMesh& cutte
   std::vector<std::size_t> first;  // where each ancestor's candidates begin
   for (std::size_t i = 0; i < candidates.size(); ++i)
     if (i == 0 || ancestor_of(candidates[i]) != ancestor_of(candidates[i - 1])) first.push_back(i);
-  std::vector<Detection> parts(first.size());
-  executor.for_each(parts.size(), [&](std::size_t k) {
+  std::vector<TriangleWork> works(first.size());
+  std::vector<std::vector<DetectedLine>> lines(first.size());
+  executor.for_each(first.size(), [&](std::size_t k) {
     const std::size_t end = k + 1 < first.size() ? first[k + 1] : candidates.size();
-    parts[k] =
+    Detected detected =
         detect_on_ancestor(mesh, faces, {candidates.data() + first[k], end - first[k]}, slack, distances);
+    works[k] = std::move(detected.work);
+    lines[k] = std::move(detected.lines);
   });
   Detection detection;
-  for (Detection& part : parts) {
-    std::move(part.works.begin(), part.works.end(), std::back_inserter(detection.works));
-    detection.lines.insert(detection.lines.end(), part.lines.begin(), part.lines.end());
-  }
+  detection.works = std::move(works);
+  std::erase_if(detection.works, [](const TriangleWork& work) { return work.lines.empty(); });
+  for (const auto& found : lines) detection.lines.insert(detection.lines.end(), found.begin(), found.end());
   lattice::sort_unique(detection.lines);
   return detection;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -66,16 +67,23 @@ bool merge_to_node(EdgePoint& point, const std::vector<Target>& targets, double 
   return true;
 }
 
-/// Decides all points of one edge. Groups of new points within δn get one node at the point nearest to their
-/// middle.
-bool settle(HybridMesh& mesh, EdgePoint* begin, EdgePoint* end, const CutContext& context) {
-  const AncestorEdgeId edge = begin->edge;
+/// The points of one edge, by increasing t, and where they make new nodes.
+struct EdgePoints {
+  std::span<EdgePoint> points;
+  std::vector<std::int32_t> new_nodes{};
+};
+
+/// Decides where the points of an edge go. Groups of new points within δn get one node at the point nearest
+/// to their middle.
+void settle(const HybridMesh& mesh, EdgePoints& on_edge, const CutContext& context) {
+  const AncestorEdgeId edge = on_edge.points[0].edge;
   const double unit = mesh.ancestors.rest_length(edge) / lattice_size;
   const MergeDistances distances = local_distances(context.distances, unit * lattice_size, unit);
   std::vector<Target> targets = targets_of(mesh, edge, distances, context);
   std::vector<EdgePoint*> fresh;
-  for (EdgePoint* p = begin; p != end; ++p)
-    if (!merge_to_node(*p, targets, unit, distances.node)) fresh.push_back(p);
+  for (EdgePoint& p : on_edge.points)
+    if (!merge_to_node(p, targets, unit, distances.node)) fresh.push_back(&p);
+  if (fresh.empty()) return;
   for (std::size_t i = 0; i < fresh.size();) {
     std::size_t last = i;
     while (last + 1 < fresh.size() && unit * (fresh[last + 1]->t - fresh[i]->t) <= distances.node) ++last;
@@ -86,17 +94,16 @@ bool settle(HybridMesh& mesh, EdgePoint* begin, EdgePoint* end, const CutContext
                                                   return std::abs(a->t - middle) < std::abs(b->t - middle);
                                                 });
     i = last + 1;
-    insert_boundary_node(edge_state_for_writing(mesh, edge), centre->t, context.this_cut);
+    on_edge.new_nodes.push_back(centre->t);
     targets.push_back({centre->t, false, centre->t, distances.node});
   }
-  for (EdgePoint* p = begin; p != end; ++p) merge_to_node(*p, targets, unit, distances.node);
-  return !fresh.empty();
+  for (EdgePoint& p : on_edge.points) merge_to_node(p, targets, unit, distances.node);
 }
 
 }  // namespace
 
 void merge_on_physics_edges(HybridMesh& mesh, std::vector<TriangleWork>& works, const CutContext& context,
-                            ClusterCentres& next_centres) {
+                            const Executor& executor, ClusterCentres& next_centres) {
   const AncestorMesh& ancestors = mesh.ancestors;
   const auto edge_point = [&](const TriangleWork& work, const LineEnd& end) {
     const std::size_t i = edge_of(end.point);
@@ -115,13 +122,20 @@ void merge_on_physics_edges(HybridMesh& mesh, std::vector<TriangleWork>& works, 
   const auto repeated = std::ranges::unique(points, {}, place_of);
   points.erase(repeated.begin(), repeated.end());
 
-  std::vector<AncestorEdgeId> changed;
+  std::vector<EdgePoints> edges;
   for (std::size_t i = 0; i < points.size();) {
     std::size_t end = i;
     while (end < points.size() && points[end].edge == points[i].edge) ++end;
-    if (settle(mesh, points.data() + i, points.data() + end, context)) changed.push_back(points[i].edge);
+    edges.push_back({{points.data() + i, end - i}});
     i = end;
   }
+  executor.for_each(edges.size(), [&](std::size_t i) { settle(mesh, edges[i], context); });
+  std::erase_if(edges, [](const EdgePoints& e) { return e.new_nodes.empty(); });
+  for (const EdgePoints& e : edges) edge_state_for_writing(mesh, e.points[0].edge);
+  executor.for_each(edges.size(), [&](std::size_t i) {
+    EdgeState& state = edge_state_for_writing(mesh, edges[i].points[0].edge);
+    for (const std::int32_t t : edges[i].new_nodes) insert_boundary_node(state, t, context.this_cut);
+  });
   // Only now: a stamp set earlier would hide from the next edge that their common node was part of the
   // previous cut.
   for (const EdgePoint& p : points) {
@@ -129,7 +143,8 @@ void merge_on_physics_edges(HybridMesh& mesh, std::vector<TriangleWork>& works, 
     if (p.t != p.merged) next_centres.on_edges.push_back({p.edge, p.t, p.merged});
   }
 
-  for (TriangleWork& work : works)
+  executor.for_each(works.size(), [&](std::size_t w) {
+    TriangleWork& work = works[w];
     for (CuttingLine& line : work.lines)
       for (LineEnd* end : {&line.a, &line.b}) {
         if (end->on != LineEnd::On::physics_edge || corner_of(end->point) < 3) continue;
@@ -138,10 +153,11 @@ void merge_on_physics_edges(HybridMesh& mesh, std::vector<TriangleWork>& works, 
         end->point = lattice_point_on_edge(
             i, ancestors.reversed(work.ancestor, i) ? lattice_size - found->merged : found->merged);
       }
+  });
 
   std::vector<AncestorId> beside;
-  for (const AncestorEdgeId edge : changed)
-    for (const AncestorId t : ancestors.edges[edge.index()].triangles)
+  for (const EdgePoints& e : edges)
+    for (const AncestorId t : ancestors.edges[e.points[0].edge.index()].triangles)
       if (t.valid()) beside.push_back(t);
   lattice::sort_unique(beside);
   add_works(mesh, works, beside, context.distances);

@@ -6,6 +6,7 @@
 #pragma once
 #include <vector>
 
+#include "cut/executor.hpp"
 #include "cut/hybrid_mesh.hpp"
 #include "cutting/state.hpp"
 
@@ -17,6 +18,6 @@ namespace cut {
 /// @param next_centres gets what the next cut is to remember of the points on edges
 /// O(ends · log), and the nodes of each edge.
 void merge_on_physics_edges(HybridMesh& mesh, std::vector<TriangleWork>& works, const CutContext& context,
-                            ClusterCentres& next_centres);
+                            const Executor& executor, ClusterCentres& next_centres);
 
 }  // namespace cut

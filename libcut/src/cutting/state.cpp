@@ -58,6 +58,7 @@ TriangleWork make_work(const HybridMesh& mesh, AncestorId ancestor, const MergeD
 
 void add_works(const HybridMesh& mesh, std::vector<TriangleWork>& works,
                const std::vector<AncestorId>& ancestors, const MergeDistances& distances) {
+  if (std::ranges::includes(works, ancestors, {}, &TriangleWork::ancestor)) return;
   std::vector<TriangleWork> all;
   all.reserve(works.size() + ancestors.size());
   auto next = works.begin();

@@ -60,7 +60,7 @@ struct ContinuedLine {
 /// One ancestor that this cut touches.
 struct TriangleWork {
   AncestorId ancestor;
-  lattice::Metric metric;
+  lattice::Metric metric{std::array<double, 3>{}};
   MergeDistances distances;  ///< of this triangle, see local_distances
   Arrangement before;        ///< as the last cut left it; an uncut triangle's is made up
   std::vector<CuttingLine> lines{};

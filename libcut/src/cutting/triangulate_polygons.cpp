@@ -29,7 +29,8 @@ class Triangulator {
 /// Triangles of all polygons of one arrangement.
 struct Triangulation {
   CornerTriangles triangles;
-  std::vector<std::size_t> ends;  ///< per polygon: where its triangles end
+  std::vector<std::size_t> ends;      ///< per polygon: where its triangles end
+  std::vector<RenderTriangleId> ids;  ///< per triangle
 };
 
 Triangulation triangulation_of(const Arrangement& arrangement, const lattice::Metric& metric) {
@@ -44,13 +45,30 @@ Triangulation triangulation_of(const Arrangement& arrangement, const lattice::Me
   return result;
 }
 
-void write(HybridMesh& mesh, RenderTriangleId id, const RenderPolygon& polygon,
-           const std::array<std::uint32_t, 3>& corners, ChangeLog& log) {
-  mesh.buffers.render_triangles[id.index()] = {
-      {polygon.corners[corners[0]].vertex, polygon.corners[corners[1]].vertex,
-       polygon.corners[corners[2]].vertex},
-      polygon.triangle};
-  log.render_triangles.push_back(id.value);
+RenderTriangle render_triangle(const RenderPolygon& polygon, const std::array<std::uint32_t, 3>& corners) {
+  return {{polygon.corners[corners[0]].vertex, polygon.corners[corners[1]].vertex,
+           polygon.corners[corners[2]].vertex},
+          polygon.triangle};
+}
+
+/// Entries for so many triangles: those that the ancestor had before, then free ones, then new ones.
+std::vector<RenderTriangleId> allocate(HybridMesh& mesh, const Arrangement& before, std::size_t count,
+                                       ChangeLog& log) {
+  auto& entries = mesh.buffers.render_triangles;
+  auto& free = mesh.free_render_triangles;
+  std::vector<RenderTriangleId> ids;
+  for (const RenderPolygon& polygon : before.polygons)
+    ids.insert(ids.end(), polygon.triangles.begin(), polygon.triangles.end());
+  std::sort(ids.begin(), ids.end());
+  for (; ids.size() > count; ids.pop_back()) {
+    entries[ids.back().index()] = RenderTriangle{};
+    log.render_triangles.push_back(ids.back().value);
+    free.push_back(ids.back());
+  }
+  for (; ids.size() < count && !free.empty(); free.pop_back()) ids.push_back(free.back());
+  for (; ids.size() < count; entries.emplace_back()) ids.emplace_back(entries.size());
+  for (const RenderTriangleId id : ids) log.render_triangles.push_back(id.value);
+  return ids;
 }
 
 }  // namespace
@@ -61,41 +79,22 @@ void triangulate_polygons(HybridMesh& mesh, std::span<const TriangleWork> works,
   executor.for_each(works.size(), [&](std::size_t i) {
     triangulations[i] = triangulation_of(*mesh.arrangement(works[i].ancestor), works[i].metric);
   });
-  std::vector<RenderTriangleId> idle;
-  auto& render_triangles = mesh.buffers.render_triangles;
-  for (std::size_t w = 0; w < works.size(); ++w) {
-    const TriangleWork& work = works[w];
-    const Triangulation& triangulation = triangulations[w];
-    idle.clear();
-    for (const RenderPolygon& polygon : work.before.polygons)
-      idle.insert(idle.end(), polygon.triangles.begin(), polygon.triangles.end());
-    std::sort(idle.begin(), idle.end(), std::greater<>());
-    Arrangement& arrangement = mesh.arrangements[mesh.arrangement_of[work.ancestor.index()]];
+  for (std::size_t i = 0; i < works.size(); ++i)
+    triangulations[i].ids = allocate(mesh, works[i].before, triangulations[i].triangles.size(), log);
+  executor.for_each(works.size(), [&](std::size_t i) {
+    const Triangulation triangulation = std::move(triangulations[i]);
     std::size_t next = 0;
+    Arrangement& arrangement = mesh.arrangements[mesh.arrangement_of[works[i].ancestor.index()]];
     for (std::size_t p = 0; p < arrangement.polygons.size(); ++p) {
       RenderPolygon& polygon = arrangement.polygons[p];
-      polygon.triangles.clear();
-      for (; next < triangulation.ends[p]; ++next) {
-        RenderTriangleId id{render_triangles.size()};
-        if (!idle.empty()) {
-          id = idle.back();
-          idle.pop_back();
-        } else if (!mesh.free_render_triangles.empty()) {
-          id = mesh.free_render_triangles.back();
-          mesh.free_render_triangles.pop_back();
-        } else {
-          render_triangles.emplace_back();
-        }
-        write(mesh, id, polygon, triangulation.triangles[next], log);
-        polygon.triangles.push_back(id);
-      }
+      polygon.triangles.assign(
+          triangulation.ids.begin() + static_cast<std::ptrdiff_t>(next),
+          triangulation.ids.begin() + static_cast<std::ptrdiff_t>(triangulation.ends[p]));
+      for (; next < triangulation.ends[p]; ++next)
+        mesh.buffers.render_triangles[triangulation.ids[next].index()] =
+            render_triangle(polygon, triangulation.triangles[next]);
     }
-    for (const RenderTriangleId id : idle) {
-      render_triangles[id.index()] = RenderTriangle{};
-      log.render_triangles.push_back(id.value);
-      mesh.free_render_triangles.push_back(id);
-    }
-  }
+  });
 }
 
 void triangulate_again(HybridMesh& mesh, std::span<const std::pair<AncestorId, std::uint32_t>> polygons,
@@ -106,19 +105,22 @@ void triangulate_again(HybridMesh& mesh, std::span<const std::pair<AncestorId, s
     const Arrangement& arrangement = *mesh.arrangement(ancestor);
     const RenderPolygon& polygon = arrangement.polygons[p];
     triangulator.triangulate(arrangement, polygon, rest_metric(mesh.ancestors, ancestor), triangles);
-    for (std::size_t k = 0; k < triangles.size(); ++k)
-      write(mesh, polygon.triangles[k], polygon, triangles[k], log);
+    for (std::size_t k = 0; k < triangles.size(); ++k) {
+      mesh.buffers.render_triangles[polygon.triangles[k].index()] = render_triangle(polygon, triangles[k]);
+      log.render_triangles.push_back(polygon.triangles[k].value);
+    }
   }
 }
 
-void update_vertex_nodes(HybridMesh& mesh, ChangeLog& log) {
+void update_vertex_nodes(HybridMesh& mesh, const Executor& executor, ChangeLog& log) {
   lattice::sort_unique(log.triangles);
+  /// @return whether it had others  @pre no other thread looks at a vertex of this triangle
   const auto update = [&](RenderVertexId v, TriangleId triangle) {
     RenderVertex& vertex = mesh.buffers.render_vertices[v.index()];
     const auto& nodes = mesh.buffers.triangles[triangle.index()].nodes;
-    if (vertex.triangle != triangle || vertex.nodes == nodes) return;
+    if (vertex.triangle != triangle || vertex.nodes == nodes) return false;
     vertex.nodes = nodes;
-    log.render_vertices.push_back(v.value);
+    return true;
   };
   std::vector<AncestorId> cut_ancestors;
   for (const std::uint32_t index : log.triangles) {
@@ -128,13 +130,18 @@ void update_vertex_nodes(HybridMesh& mesh, ChangeLog& log) {
       cut_ancestors.push_back(ancestor);
     else
       for (const RenderVertexId v : mesh.buffers.render_triangles[index].vertices)
-        update(v, TriangleId{index});
+        if (update(v, TriangleId{index})) log.render_vertices.push_back(v.value);
   }
   lattice::sort_unique(cut_ancestors);
-  for (const AncestorId ancestor : cut_ancestors)
-    for (const RenderPolygon& polygon : mesh.arrangement(ancestor)->polygons)
+  std::vector<std::vector<std::uint32_t>> updated(cut_ancestors.size());
+  executor.for_each(cut_ancestors.size(), [&](std::size_t i) {
+    for (const RenderPolygon& polygon : mesh.arrangement(cut_ancestors[i])->polygons)
       if (std::binary_search(log.triangles.begin(), log.triangles.end(), polygon.triangle.value))
-        for (const PolygonCorner& c : polygon.corners) update(c.vertex, polygon.triangle);
+        for (const PolygonCorner& c : polygon.corners)
+          if (update(c.vertex, polygon.triangle)) updated[i].push_back(c.vertex.value);
+  });
+  for (const auto& list : updated)
+    log.render_vertices.insert(log.render_vertices.end(), list.begin(), list.end());
 }
 
 }  // namespace cut

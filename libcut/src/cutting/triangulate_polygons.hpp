@@ -23,6 +23,6 @@ void triangulate_again(HybridMesh& mesh, std::span<const std::pair<AncestorId, s
                        ChangeLog& log);
 
 /// Render vertices take over the nodes of the physics triangles that the log names.
-void update_vertex_nodes(HybridMesh& mesh, ChangeLog& log);
+void update_vertex_nodes(HybridMesh& mesh, const Executor& executor, ChangeLog& log);
 
 }  // namespace cut
