@@ -47,24 +47,28 @@ using Pulls = std::vector<std::vector<std::pair<std::uint32_t, double>>>;
 
 Pulls pulls_of(const cut::SpringBlocks& blocks) {
   Pulls pulls(blocks.node_count());
-  for (const cut::SpringBlock& block : blocks.blocks()) {
-    const auto own = [&](std::uint32_t n) { return n >= block.first && n < block.last; };
-    for (const cut::SpringDiagonal& d : block.diagonals)
-      for (std::size_t i = 0; i < d.used.size(); ++i) {
-        const double stiffness = d.springs[i / 4].stiffness[i % 4];
-        if (d.used[i] == 0) {
-          CHECK(stiffness == 0);
-          continue;
-        }
-        const auto a = static_cast<std::uint32_t>(d.first + i), b = a + d.offset;
-        CHECK((own(a) || own(b)));
-        if (own(a)) pulls[a].emplace_back(b, stiffness);
-        if (own(b)) pulls[b].emplace_back(a, stiffness);
+  for (const cut::SpringDiagonal& d : blocks.diagonals())
+    for (std::size_t i = 0; i < d.used.size(); ++i) {
+      const double stiffness = d.springs[i / 4].stiffness[i % 4];
+      if (d.used[i] == 0) {
+        CHECK(stiffness == 0);
+        continue;
       }
+      const auto a = static_cast<std::uint32_t>(i), b = a + d.offset;
+      pulls[a].emplace_back(b, stiffness);
+      pulls[b].emplace_back(a, stiffness);
+    }
+  for (const cut::SpringBlock& block : blocks.blocks()) {
+    const auto node = [&](std::uint32_t name) {
+      return blocks.diagonals().empty() ? name : block.placed[name % 2].nodes()[name / 2];
+    };
+    REQUIRE(block.copy_places.size() == (blocks.diagonals().empty() ? 0 : block.copies.size()));
+    for (std::size_t i = 0; i < block.copy_places.size(); ++i)
+      CHECK(node(2 * block.copy_places[i] + 1) == block.copies[i] + blocks.nodes_in_diagonals());
     for (const auto* list : {&block.inner, &block.outer})
       for (std::size_t i = 0; i < list->nodes.size(); ++i) {
-        const auto [a, b] = list->nodes[i];
-        if (a == b) continue;
+        if (list->nodes[i][0] == list->nodes[i][1]) continue;
+        const std::uint32_t a = node(list->nodes[i][0]), b = node(list->nodes[i][1]);
         pulls[a].emplace_back(b, list->stiffness[i]);
         if (list == &block.inner) pulls[b].emplace_back(a, list->stiffness[i]);
       }
@@ -83,9 +87,9 @@ TEST_CASE("a simulation is the same to the bit for any number of threads") {
 
 TEST_CASE("blocks have each spring at both of its ends, however springs are set and moved") {
   std::mt19937 random(3);
-  for (const std::size_t nodes : {std::size_t{10}, std::size_t{5000}}) {
+  for (const std::size_t nodes : {std::size_t{10}, std::size_t{5000}, std::size_t{6000}}) {
     cut::SpringBlocks blocks;
-    blocks.reset(nodes, {1, 7, 30});
+    blocks.reset(nodes, nodes == 5000 ? std::vector<std::uint32_t>{} : std::vector<std::uint32_t>{1, 7, 30});
     CHECK((blocks.blocks().size() > 1) == (nodes > 10));
     const std::size_t count = 4 * nodes;
     cut::SpringArrays springs{std::vector<std::array<std::uint32_t, 2>>(count), std::vector<double>(count),

@@ -163,12 +163,16 @@ class Simulation {
   void find_air_forces(const HybridMesh& mesh);
   void for_each_run(const std::function<void(std::size_t first, std::size_t last)>& body) const;
   [[nodiscard]] NodeArrays node_arrays(bool moves);
-  void to_columns(const NodeArrays& nodes) const;
-  void from_columns(const NodeArrays& nodes) const;
-  [[nodiscard]] bool go_through_blocks(const HybridMesh& mesh, const VelocityUpdate* update,
-                                       const NodeArrays& nodes);
-  std::optional<Error> explicit_velocities(const HybridMesh& mesh, double time_step, double speed_limit,
-                                           const NodeArrays& nodes);
+  void load(const NodeArrays& nodes) const;
+  void store(const NodeArrays& nodes);
+  void take_next_velocities(const NodeArrays& nodes);
+  [[nodiscard]] std::size_t steps_at_once() const;
+  [[nodiscard]] bool go_through_blocks(const VelocityUpdate* update, const NodeArrays& nodes,
+                                       std::size_t steps);
+  [[nodiscard]] bool find_forces(const VelocityUpdate* update);
+  [[nodiscard]] VelocityUpdate velocity_update(double time_step, double speed_limit) const;
+  std::optional<Error> step_free(double time_step, double speed_limit, std::size_t count);
+  std::optional<Error> explicit_velocities(const HybridMesh& mesh, double time_step, double speed_limit);
   std::optional<Error> implicit_velocities(const HybridMesh& mesh, double time_step, double speed_limit,
                                            const Obstacles& obstacles);
   void set_up_system(const HybridMesh& mesh, double time_step);
@@ -200,12 +204,11 @@ class Simulation {
   std::vector<PaddedVector> external_forces_;  ///< empty while none is set
   std::vector<PaddedVector> air_forces_;       ///< work space of `step`
   std::vector<PaddedVector> positions_;        ///< work space of `step`
-  std::vector<PaddedVector> next_positions_;   ///< work space of `step`; empty before the first explicit one
   std::vector<PaddedVector> forces_;           ///< work space of `step`
-  /// Work space of `step` for nodes with springs in diagonals: x, y and z, each in an array of its own, of
-  /// positions, next positions, velocities and next velocities.
+  /// Work space of `step` for positions and velocities and the next ones: for nodes with springs in diagonals
+  /// x, y and z each in an array of its own, for the others vectors.
   std::vector<CacheLine> columns_;
-  bool columns_swapped_ = false;  ///< the next ones stand first
+  std::vector<PaddedVector> vectors_;
 
   SpringArrays springs_;             ///< per spring of the mesh, padded to a multiple of 4 with free entries
   std::vector<SpringPlace> places_;  ///< per entry of `springs_`

@@ -1,13 +1,15 @@
 /// @file
-/// The springs of a simulation as its step goes through them: nodes in blocks, and with each block a copy of
-/// the springs that pull at its nodes. A block reads positions and velocities of all nodes and writes to its
-/// own only, so blocks can be done at the same time; and the order in which a node's forces are added up does
-/// not depend on who does them. In: springs one by one, as they are set or change. Out: flat arrays.
+/// The springs of a simulation as its step goes through them: springs in diagonals, nodes in blocks, and with
+/// each block a copy of the other springs that pull at its nodes. A block reads positions and velocities of
+/// all nodes and writes to its own only, so blocks can be done at the same time; and the order in which a
+/// node's forces are added up does not depend on who does them. In: springs one by one, as they are set or
+/// change. Out: flat arrays.
 #pragma once
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 namespace cut {
@@ -27,27 +29,43 @@ struct alignas(32) FourSprings {
   std::array<double, 4> rest_length{}, stiffness{}, damping{};
 };
 
-/// Springs from node first + i to node first + i + offset, for each i: a sheet whose nodes are numbered row
-/// by row is three of these. Entries that are not in use have k = c = 0.
+/// Springs from node i to node i + offset, for each i: a sheet whose nodes are numbered row by row is three
+/// of these. Entries that are not in use have k = c = 0.
 struct SpringDiagonal {
   std::uint32_t offset = 0;
-  std::uint32_t first = 0;  ///< a multiple of 4, as is the number of entries
   std::vector<FourSprings> springs;
-  std::vector<std::uint8_t> used;
+  std::vector<std::uint8_t> used;  ///< per spring
+};
+
+/// Nodes that have a place each in arrays of their own, in which a step finds them side by side.
+class PlacedNodes {
+ public:
+  /// The place of a node, which is held once more. O(1) expected.
+  std::uint32_t hold(std::uint32_t node);
+  /// Who no longer needs the node at this place says so. O(1) expected.
+  void let_go(std::uint32_t place);
+
+  /// By place; where nobody holds a node is one that somebody has held.
+  [[nodiscard]] const std::vector<std::uint32_t>& nodes() const { return nodes_; }
+
+ private:
+  std::vector<std::uint32_t> nodes_, holders_, free_;
+  std::unordered_map<std::uint32_t, std::uint32_t> places_;
 };
 
 struct SpringBlock {
-  std::uint32_t first = 0, last = 0;      ///< its nodes: from `first`, a multiple of 4, to before `last`, ...
-  std::vector<std::uint32_t> copies;      ///< ... and what cuts have made of these
-  std::uint32_t uncut_nodes = 0;          ///< of all blocks: diagonals read no node from here on
-  std::vector<SpringDiagonal> diagonals;  ///< of all springs with an end in the block, ...
-  SpringArrays inner;                     ///< ... and the others: with both ends in the block, ...
-  SpringArrays outer;                     ///< ... with nodes[0] in the block and nodes[1] in another
+  std::uint32_t first = 0, last = 0;  ///< its nodes: from `first`, a multiple of 4, to before `last`, ...
+  std::vector<std::uint32_t> copies;  ///< ... and what cuts have made of these, less nodes_in_diagonals()
+  SpringArrays inner;                 ///< springs that are not in diagonals: with both ends in the block, ...
+  SpringArrays outer;                 ///< ... and with nodes[0] in the block and nodes[1] in another
   std::vector<std::uint32_t> free_inner, free_outer;  ///< entries that are not in use
+  /// Where there are diagonals, the lists name node placed[k].nodes()[p] as 2 p + k. k is 1 for copies, since
+  /// a step finds these elsewhere; all those of the block have a place.
+  std::array<PlacedNodes, 2> placed;
+  std::vector<std::uint32_t> copy_places;
 };
 
-/// Where a spring is: in one block, or in each of two, or nowhere; and there in a diagonal, `inner` or
-/// `outer`.
+/// Where a spring is: in a diagonal, or in the list of one block or of each of two, or nowhere.
 struct SpringPlace {
   static constexpr std::uint32_t none = 0xffffffffu;
   std::array<std::uint32_t, 2> block{none, none};
@@ -75,20 +93,26 @@ class SpringBlocks {
   void set(const SpringArrays& springs, std::size_t i, SpringPlace& place);
 
   [[nodiscard]] const std::vector<SpringBlock>& blocks() const { return blocks_; }
-  [[nodiscard]] bool has_diagonals() const { return !offsets_.empty(); }
-  /// There are no copies, and no springs but in diagonals.
-  [[nodiscard]] bool all_in_diagonals() const { return has_diagonals() && !loose_; }
+  /// Each over all nodes that were there at `reset`.
+  [[nodiscard]] const std::vector<SpringDiagonal>& diagonals() const { return diagonals_; }
+  /// How many nodes springs in diagonals can join: all that were there at `reset`, or none.
+  [[nodiscard]] std::size_t nodes_in_diagonals() const { return diagonals_.empty() ? 0 : uncut_nodes_; }
+  /// No spring joins two blocks with others between them.
+  [[nodiscard]] bool neighbours_only() const { return far_springs_ == 0; }
   [[nodiscard]] std::size_t node_count() const { return block_of_.size(); }
 
  private:
   [[nodiscard]] SpringPlace place_for(std::array<std::uint32_t, 2> nodes, const SpringPlace& old) const;
   void leave(const SpringPlace& place);
   void enter(SpringPlace& place);
+  void name_nodes(SpringBlock& block, std::array<std::uint32_t, 2>& entry, std::uint32_t a,
+                  std::uint32_t b) const;
 
-  std::vector<std::uint32_t> offsets_;  ///< of the diagonals that every block has, in this order
-  bool loose_ = false;                  ///< something is, or has been, not in diagonals
+  std::vector<SpringDiagonal> diagonals_;
   std::vector<SpringBlock> blocks_;
   std::vector<std::uint32_t> block_of_;  ///< per node
+  std::size_t uncut_nodes_ = 0;
+  std::size_t far_springs_ = 0;  ///< springs in lists that join blocks with others between them
 };
 
 }  // namespace cut

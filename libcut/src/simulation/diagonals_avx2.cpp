@@ -24,8 +24,8 @@ struct Loops {
                                     const ColumnArrays& forces) {
     const ColumnArrays p = nodes.position_columns, v = nodes.velocity_columns;
     const ColumnArrays f{forces[0] + shift, forces[1] + shift, forces[2] + shift};
-    const auto offset = static_cast<std::ptrdiff_t>(d.offset), first = static_cast<std::ptrdiff_t>(d.first);
-    const FourSprings* springs = d.springs.data() + (static_cast<std::ptrdiff_t>(from) - first) / 4;
+    const auto offset = static_cast<std::ptrdiff_t>(d.offset);
+    const FourSprings* springs = d.springs.data() + from / 4;
     const auto end = static_cast<std::ptrdiff_t>(to);
     for (auto i = static_cast<std::ptrdiff_t>(from); i < end; i += 4, ++springs) {
       const Columns along = subtract(load(p, i + offset), load(p, i));
@@ -37,29 +37,22 @@ struct Loops {
     }
   }
 
-  SNIP_AVX2 static bool finish(const VelocityUpdate* update, bool begun, std::size_t from, std::size_t to,
-                               const BlockForces& forces, const NodeArrays& nodes) {
-    if (update == nullptr) return finish_portable(update, begun, from, to, forces, nodes);
+  SNIP_AVX2 static bool finish(const NodeRange& range, const VelocityUpdate* update, std::size_t from,
+                               std::size_t to, const BlockForces& forces, const NodeArrays& nodes) {
+    if (update == nullptr) return finish_portable(range, update, from, to, forces, nodes);
     const std::size_t fours = to / 4 * 4;
-    const ColumnArrays given{forces.given[0] + forces.shift, forces.given[1] + forces.shift,
-                             forces.given[2] + forces.shift};
-    if (begun) best_kernels().to_columns(nodes.forces, from, fours, given);
     const double acceleration[] = {update->acceleration.x, update->acceleration.y, update->acceleration.z};
     bool sound = true;
     for (std::size_t k = 0; k < 3; ++k) {
       // Sheets without and with bending springs.
       const auto component = forces.count == 3 ? finish<3> : forces.count == 6 ? finish<6> : finish<0>;
-      sound &= component(*update, acceleration[k], begun ? given[k] : nullptr, from, fours, k, forces, nodes);
+      const double* const given = range.given != nullptr ? (*range.given)[k] + (from - range.first) : nullptr;
+      sound &= component(*update, acceleration[k], given, from, fours, k, forces, nodes);
     }
-    if (nodes.padded) {
-      best_kernels().from_columns(nodes.next_velocity_columns, from, fours, nodes.forces);
-      if (nodes.moves)
-        best_kernels().from_columns(nodes.next_position_columns, from, fours, nodes.next_positions);
-    }
-    return (fours == to || finish_portable(update, begun, fours, to, forces, nodes)) && sound;
+    return (fours == to || finish_portable(range, update, fours, to, forces, nodes)) && sound;
   }
 
-  /// One component. @tparam Count  of diagonals; 0 for any  @param given  forces to begin with, or null
+  /// One component. @tparam Count  of diagonals; 0 for any  @param given  of node `from`, or null
   template <std::size_t Count>
   SNIP_AVX2 static bool finish(const VelocityUpdate& update, double acceleration, const double* given,
                                std::size_t from, std::size_t to, std::size_t component,
@@ -74,15 +67,15 @@ struct Loops {
     std::array<const double*, most_diagonals> out{}, in{};
     const std::size_t count = Count > 0 ? Count : forces.count;
     for (std::size_t k = 0; k < count; ++k) {
-      out[k] = forces.columns[k][component] + forces.shift;
-      in[k] = out[k] - forces.offsets[k];
+      out[k] = forces.columns[k][component] + forces.starting;
+      in[k] = forces.columns[k][component] + forces.ending[k];
     }
     __m256d sound = _mm256_castsi256_pd(_mm256_set1_epi64x(-1));
     for (std::size_t n = from; n < to; n += 4) {
       __m256d force = _mm256_sub_pd(_mm256_loadu_pd(out[0] + n), _mm256_loadu_pd(in[0] + n));
       for (std::size_t k = 1; k < count; ++k)
         force = _mm256_add_pd(force, _mm256_sub_pd(_mm256_loadu_pd(out[k] + n), _mm256_loadu_pd(in[k] + n)));
-      if (given != nullptr) force = _mm256_add_pd(_mm256_loadu_pd(given + n), force);
+      if (given != nullptr) force = _mm256_add_pd(_mm256_loadu_pd(given + (n - from)), force);
       const __m256d inverse = _mm256_loadu_pd(inverse_mass + n), old = _mm256_loadu_pd(v + n);
       const __m256d free = _mm256_cmp_pd(inverse, _mm256_setzero_pd(), _CMP_GT_OQ);
       const __m256d a =
@@ -100,9 +93,9 @@ struct Loops {
 
 }  // namespace
 
-bool advance_block_avx2(const SpringBlock& block, const VelocityUpdate* update, bool begun,
-                        const NodeArrays& nodes) {
-  return advance_block<Loops>(block, update, begun, nodes);
+bool advance_range_avx2(const NodeRange& range, const VelocityUpdate* update, const NodeArrays& nodes,
+                        ForceWindow& window) {
+  return advance_range<Loops>(range, update, nodes, window);
 }
 
 }  // namespace cut

@@ -64,7 +64,8 @@ void Simulation::set_up_system(const HybridMesh& mesh, double time_step) {
   for (const SpringArrays* springs : spring_lists()) count += springs->nodes.size();
   w.couplings.resize(count);
 
-  static_cast<void>(go_through_blocks(mesh, nullptr, node_arrays(false)));
+  if (surroundings.normal_drag > 0) find_air_forces(mesh);
+  static_cast<void>(find_forces(nullptr));
   const double drag = surroundings.air_drag / material_.density;
   const PaddedVector acceleration = padded(surroundings.gravity + drag * surroundings.wind);
   for (std::size_t n = 0; n < nodes; ++n) {

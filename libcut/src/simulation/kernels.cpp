@@ -33,11 +33,12 @@ void add_spring_forces(const SpringArrays& springs, const PaddedVector* position
 
 bool advance_nodes(const VelocityUpdate& update, const NodeArrays& nodes, std::size_t first, std::size_t last,
                    std::span<const std::uint32_t> others) {
+  const double* const inverse_mass = nodes.inverse_mass + nodes.in_columns;
   bool sound = true;
   const auto advance = [&](std::size_t n) {
     const auto component = [&](double PaddedVector::* c) {
       const double v = nodes.velocities[n].*c;
-      const double next = update.next(nodes.forces[n].*c, nodes.inverse_mass[n], v, update.acceleration.*c);
+      const double next = update.next(nodes.forces[n].*c, inverse_mass[n], v, update.acceleration.*c);
       sound &= std::abs(next) <= update.speed_limit;
       nodes.forces[n].*c = next;
       if (nodes.moves)
@@ -73,6 +74,13 @@ void from_columns(const ColumnArrays& columns, std::size_t first, std::size_t la
   for (std::size_t n = first; n < last; ++n) to[n] = {columns[0][n], columns[1][n], columns[2][n], 0};
 }
 
+void gather(std::span<const std::uint32_t> entries, const ColumnArrays& columns, PaddedVector* to) {
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const std::size_t n = entries[i];
+    to[2 * i] = {columns[0][n], columns[1][n], columns[2][n], 0};
+  }
+}
+
 }  // namespace
 
 const Kernels& portable_kernels() {
@@ -80,9 +88,10 @@ const Kernels& portable_kernels() {
                                    add_spring_forces<false>,
                                    advance_nodes,
                                    move,
-                                   advance_block_portable,
+                                   advance_range_portable,
                                    to_columns,
-                                   from_columns};
+                                   from_columns,
+                                   gather};
   return kernels;
 }
 

@@ -31,27 +31,36 @@ struct VelocityUpdate {
 /// x, y and z of nodes in an array each.
 using ColumnArrays = std::array<double*, 3>;
 
-/// Arrays of all nodes; columns of the uncut ones.
+/// What a step goes through: columns of the first nodes, whose springs can stand in diagonals, and vectors of
+/// the others.
 struct NodeArrays {
+  std::size_t in_columns;
+  ColumnArrays position_columns, velocity_columns, next_position_columns, next_velocity_columns;
   PaddedVector* positions;
   PaddedVector* velocities;
-  PaddedVector* forces;
+  PaddedVector* forces;  ///< become the next velocities
   PaddedVector* next_positions;
-  const double* inverse_mass;
-  ColumnArrays position_columns, velocity_columns, next_position_columns, next_velocity_columns;
-  bool moves;  ///< whether next positions are wanted; if so, columns of both
-  /// Whether what is next is wanted in padded vectors. For springs that are not in diagonals, and for copies.
-  bool padded;
+  const double* inverse_mass;  ///< of all nodes
+  bool moves;                  ///< whether next positions are wanted
 
   /// What is next becomes what is.
   void step_on() {
     std::swap(velocities, forces);
+    std::swap(velocity_columns, next_velocity_columns);
     if (!moves) return;
     std::swap(positions, next_positions);
     std::swap(position_columns, next_position_columns);
-    std::swap(velocity_columns, next_velocity_columns);
   }
 };
+
+/// Nodes next to each other whose springs stand in diagonals.
+struct NodeRange {
+  std::span<const SpringDiagonal> diagonals;
+  std::size_t first, last;    ///< from a multiple of 4 to before any number
+  const ColumnArrays* given;  ///< other forces, that of node `first` first; or null
+};
+
+class ForceWindow;
 
 /// Nodes closer than the root of this are at the same place: the direction of the spring is undefined, and no
 /// force is taken. The smallest normal number, whose inverse is finite.
@@ -78,23 +87,24 @@ struct Kernels {
   /// The same for the first node of each spring only.
   void (*add_forces_at_first_node)(const SpringArrays& springs, const PaddedVector* positions,
                                    const PaddedVector* velocities, PaddedVector* forces);
-  /// Equations 4 to 6 in padded vectors, for nodes [first, last) and then for others: replaces each force by
-  /// the node's next velocity, and finds next positions if they are wanted. Returns whether all velocities
-  /// are within the speed limit, which none that is NaN or infinite is.
+  /// Equations 4 to 6 for vectors [first, last) and then for others: replaces each force by the node's next
+  /// velocity, and finds next positions if they are wanted. Returns whether all velocities are within the
+  /// speed limit, which none that is NaN or infinite is.
   bool (*advance_nodes)(const VelocityUpdate& update, const NodeArrays& nodes, std::size_t first,
                         std::size_t last, std::span<const std::uint32_t> others);
   /// Equation 6: from `positions` to `moved`, which may be the same.
   void (*move)(double time_step, std::span<const PaddedVector> positions, const PaddedVector* velocities,
                PaddedVector* moved);
-  /// All equations for the nodes of a block with diagonals, but not for copies. Without an update adds the
-  /// forces of springs in diagonals to `forces`. Returns what `advance_nodes` does.
-  /// @param begun  whether there is something in `forces` to begin with
-  bool (*advance_block)(const SpringBlock& block, const VelocityUpdate* update, bool begun,
-                        const NodeArrays& nodes);
+  /// All equations, in columns. Without an update leaves the sums of forces in place of the next velocities.
+  /// Returns what `advance_nodes` does.
+  bool (*advance_range)(const NodeRange& range, const VelocityUpdate* update, const NodeArrays& nodes,
+                        ForceWindow& window);
   /// Takes vectors of nodes apart, and puts them together.
   void (*to_columns)(const PaddedVector* vectors, std::size_t first, std::size_t last,
                      const ColumnArrays& to);
   void (*from_columns)(const ColumnArrays& columns, std::size_t first, std::size_t last, PaddedVector* to);
+  /// The vectors in these entries of columns, to every other one of `to`.
+  void (*gather)(std::span<const std::uint32_t> entries, const ColumnArrays& columns, PaddedVector* to);
 };
 
 /// Plain C++.

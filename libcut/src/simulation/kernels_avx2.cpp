@@ -50,7 +50,7 @@ SNIP_AVX2 bool advance_nodes(const VelocityUpdate& update, const NodeArrays& nod
   const bool moves = nodes.moves, old_first = update.old_first;
   const PaddedVector *const positions = nodes.positions, *const velocities = nodes.velocities;
   PaddedVector *const forces = nodes.forces, *const next_positions = nodes.next_positions;
-  const double* const inverse_mass = nodes.inverse_mass;
+  const double* const inverse_mass = nodes.inverse_mass + nodes.in_columns;
   __m256d sound = _mm256_cmp_pd(zero, zero, _CMP_EQ_OQ);
   const auto advance = [&](std::size_t n) SNIP_AVX2 {
     const __m256d inverse = _mm256_broadcast_sd(inverse_mass + n);
@@ -96,6 +96,15 @@ SNIP_AVX2 void from_columns(const ColumnArrays& from, std::size_t first, std::si
   portable_kernels().from_columns(from, n, last, to);
 }
 
+SNIP_AVX2 void gather(std::span<const std::uint32_t> entries, const ColumnArrays& columns, PaddedVector* to) {
+  const double *const x = columns[0], *const y = columns[1], *const z = columns[2];
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const std::size_t n = entries[i];
+    const __m128d xy = _mm_loadh_pd(_mm_load_sd(x + n), y + n);
+    store(to[2 * i], _mm256_insertf128_pd(_mm256_castpd128_pd256(xy), _mm_load_sd(z + n), 1));
+  }
+}
+
 }  // namespace
 
 const Kernels& best_kernels() {
@@ -103,9 +112,10 @@ const Kernels& best_kernels() {
                                    add_spring_forces<false>,
                                    advance_nodes,
                                    move,
-                                   advance_block_avx2,
+                                   advance_range_avx2,
                                    to_columns,
-                                   from_columns};
+                                   from_columns,
+                                   gather};
   static const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
   return has_avx2 ? kernels : portable_kernels();
 }

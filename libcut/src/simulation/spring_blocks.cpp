@@ -19,9 +19,12 @@ std::size_t block_count(std::size_t nodes) {
 constexpr std::size_t smallest_in_diagonals = 64;
 
 /// Nodes of each block, a multiple of 4; the last one has what is left.
-std::size_t block_size(std::size_t nodes) {
+std::size_t block_size(std::size_t nodes, std::span<const std::uint32_t> offsets) {
   const std::size_t count = block_count(nodes);
-  return std::max<std::size_t>(4, ((nodes + count - 1) / count + 3) / 4 * 4);
+  const std::size_t size = std::max<std::size_t>(4, ((nodes + count - 1) / count + 3) / 4 * 4);
+  if (offsets.empty() || nodes <= 32768) return size;
+  // Several blocks stay in the cache while these go through some steps; few springs join two of them.
+  return std::max<std::size_t>(2048, 4 * *std::max_element(offsets.begin(), offsets.end()));
 }
 
 void write(SpringArrays& to, std::size_t entry, double rest_length, double stiffness, double damping) {
@@ -52,6 +55,12 @@ std::uint32_t take_entry(SpringArrays& springs, std::vector<std::uint32_t>& free
   return entry;
 }
 
+/// Whether a spring there joins two blocks that are not neighbours.
+bool is_far(const SpringPlace& place) {
+  const auto [low, high] = std::minmax(place.block[0], place.block[1]);
+  return high != SpringPlace::none && high - low > 1;
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> frequent_offsets(std::span<const SpringArrays* const> lists, std::size_t nodes) {
@@ -68,101 +77,124 @@ std::vector<std::uint32_t> frequent_offsets(std::span<const SpringArrays* const>
     const auto begin = i;
     i = std::upper_bound(i, all.end(), *begin);
     const auto count = static_cast<std::size_t>(i - begin);
-    if (5 * count < 2 * nodes || 2 * *begin > block_size(nodes)) continue;
+    if (5 * count < 2 * nodes || 2 * *begin > block_size(nodes, {})) continue;
     frequent.push_back(*begin);
     taken += count;
   }
   return taken < nodes || nodes < smallest_in_diagonals ? std::vector<std::uint32_t>{} : frequent;
 }
 
+std::uint32_t PlacedNodes::hold(std::uint32_t node) {
+  const auto [found, is_new] = places_.try_emplace(node, 0);
+  if (is_new) {
+    if (free_.empty()) {
+      free_.push_back(static_cast<std::uint32_t>(nodes_.size()));
+      nodes_.push_back(node);
+      holders_.push_back(0);
+    }
+    found->second = free_.back();
+    free_.pop_back();
+    nodes_[found->second] = node;
+  }
+  ++holders_[found->second];
+  return found->second;
+}
+
+void PlacedNodes::let_go(std::uint32_t place) {
+  if (--holders_[place] > 0) return;
+  places_.erase(nodes_[place]);
+  free_.push_back(place);
+}
+
 void SpringBlocks::reset(std::size_t nodes, std::vector<std::uint32_t> offsets) {
-  offsets_ = std::move(offsets);
-  loose_ = false;
-  const std::size_t size = block_size(nodes), count = std::max<std::size_t>(1, (nodes + size - 1) / size);
+  const std::size_t size = block_size(nodes, offsets);
+  const std::size_t count = std::max<std::size_t>(1, (nodes + size - 1) / size);
   blocks_.assign(count, {});
   block_of_.resize(nodes);
+  uncut_nodes_ = nodes;
   for (std::size_t n = 0; n < nodes; ++n) block_of_[n] = static_cast<std::uint32_t>(n / size);
   for (std::size_t b = 0; b < count; ++b) {
-    SpringBlock& block = blocks_[b];
-    block.first = static_cast<std::uint32_t>(std::min(nodes, b * size));
-    block.last = static_cast<std::uint32_t>(std::min(nodes, (b + 1) * size));
-    block.uncut_nodes = static_cast<std::uint32_t>(nodes);
-    for (const std::uint32_t offset : offsets_) {
-      SpringDiagonal& d = block.diagonals.emplace_back();
-      d.offset = offset;
-      d.first = block.first < offset ? 0 : (block.first - offset) / 4 * 4;
-      const std::size_t entries = (block.last - d.first + 3) / 4 * 4;
-      d.springs.resize(entries / 4);
-      d.used.resize(entries);
-    }
+    blocks_[b].first = static_cast<std::uint32_t>(std::min(nodes, b * size));
+    blocks_[b].last = static_cast<std::uint32_t>(std::min(nodes, (b + 1) * size));
   }
+  diagonals_.assign(offsets.size(), {});
+  for (std::size_t d = 0; d < offsets.size(); ++d) {
+    diagonals_[d].offset = offsets[d];
+    diagonals_[d].springs.resize((nodes + 3) / 4);
+    diagonals_[d].used.resize(4 * diagonals_[d].springs.size());
+  }
+  far_springs_ = 0;
 }
 
 void SpringBlocks::add_copy(std::uint32_t source) {
-  const std::uint32_t block = block_of_[source];
-  blocks_[block].copies.push_back(static_cast<std::uint32_t>(block_of_.size()));
-  block_of_.push_back(block);
-  loose_ = true;
+  SpringBlock& block = blocks_[block_of_[source]];
+  const auto copy = static_cast<std::uint32_t>(block_of_.size());
+  block.copies.push_back(copy - static_cast<std::uint32_t>(nodes_in_diagonals()));
+  if (!diagonals_.empty()) block.copy_places.push_back(block.placed[1].hold(copy));
+  block_of_.push_back(block_of_[source]);
 }
 
-/// Where a spring between these nodes belongs that has been at `old`; entries of diagonals only.
+/// Where a spring between these nodes belongs that has been at `old`; the entry in a diagonal only.
 SpringPlace SpringBlocks::place_for(std::array<std::uint32_t, 2> nodes, const SpringPlace& old) const {
   SpringPlace place;
   if (nodes[0] == nodes[1]) return place;
   const auto [low, high] = std::minmax(nodes[0], nodes[1]);
-  const auto offset = std::find(offsets_.begin(), offsets_.end(), high - low);
-  if (high < blocks_[0].uncut_nodes && offset != offsets_.end()) {
-    place.diagonal = static_cast<std::uint32_t>(offset - offsets_.begin());
-    place.block = {block_of_[low], block_of_[high]};
-    for (std::size_t end = 0; end < 2; ++end)
-      place.entry[end] = low - blocks_[place.block[end]].diagonals[place.diagonal].first;
-  } else {
-    place.block = {block_of_[nodes[0]], block_of_[nodes[1]]};
-  }
-  if (place.block[0] == place.block[1]) {
-    place.block[1] = SpringPlace::none;
-    place.entry[1] = 0;
-  }
-  if (place.diagonal != SpringPlace::none && place != old &&
-      blocks_[place.block[0]].diagonals[place.diagonal].used[place.entry[0]] != 0) {
-    // Two springs between the same nodes.
-    place.diagonal = SpringPlace::none;
-    place.entry = {};
-    if (nodes[0] != low && place.block[1] != SpringPlace::none) std::swap(place.block[0], place.block[1]);
-  }
+  for (std::uint32_t d = 0; d < diagonals_.size() && high < uncut_nodes_; ++d)
+    if (diagonals_[d].offset == high - low) {
+      place.diagonal = d;
+      place.entry[0] = low;
+      // Unless there are two springs between the same nodes.
+      if (place == old || diagonals_[d].used[low] == 0) return place;
+      place = {};
+    }
+  place.block = {block_of_[nodes[0]], block_of_[nodes[1]]};
+  if (place.block[0] == place.block[1]) place.block[1] = SpringPlace::none;
   return place;
 }
 
 void SpringBlocks::leave(const SpringPlace& place) {
+  if (is_far(place)) --far_springs_;
+  if (place.diagonal != SpringPlace::none) {
+    write(diagonals_[place.diagonal], place.entry[0], 0, 0, 0);
+    diagonals_[place.diagonal].used[place.entry[0]] = 0;
+  }
   const bool inner = place.block[1] == SpringPlace::none;
   for (std::size_t end = 0; end < 2; ++end) {
     if (place.block[end] == SpringPlace::none) continue;
     SpringBlock& block = blocks_[place.block[end]];
-    if (place.diagonal != SpringPlace::none) {
-      write(block.diagonals[place.diagonal], place.entry[end], 0, 0, 0);
-      block.diagonals[place.diagonal].used[place.entry[end]] = 0;
-    } else {
-      SpringArrays& list = inner ? block.inner : block.outer;
-      list.nodes[place.entry[end]] = {block.first, block.first};
-      write(list, place.entry[end], 0, 0, 0);
-      (inner ? block.free_inner : block.free_outer).push_back(place.entry[end]);
-    }
+    SpringArrays& list = inner ? block.inner : block.outer;
+    name_nodes(block, list.nodes[place.entry[end]], block.first, block.first);
+    write(list, place.entry[end], 0, 0, 0);
+    (inner ? block.free_inner : block.free_outer).push_back(place.entry[end]);
   }
 }
 
 void SpringBlocks::enter(SpringPlace& place) {
+  if (is_far(place)) ++far_springs_;
+  if (place.diagonal != SpringPlace::none) diagonals_[place.diagonal].used[place.entry[0]] = 1;
   const bool inner = place.block[1] == SpringPlace::none;
   for (std::size_t end = 0; end < 2; ++end) {
     if (place.block[end] == SpringPlace::none) continue;
     SpringBlock& block = blocks_[place.block[end]];
-    if (place.diagonal != SpringPlace::none) {
-      block.diagonals[place.diagonal].used[place.entry[end]] = 1;
-    } else {
-      loose_ = true;
-      place.entry[end] = inner ? take_entry(block.inner, block.free_inner, block.first)
-                               : take_entry(block.outer, block.free_outer, block.first);
-    }
+    const std::uint32_t nobody = diagonals_.empty() ? block.first : 0;
+    place.entry[end] = inner ? take_entry(block.inner, block.free_inner, nobody)
+                             : take_entry(block.outer, block.free_outer, nobody);
   }
+}
+
+/// Has an entry of a list join these nodes: twice the same for none.
+void SpringBlocks::name_nodes(SpringBlock& block, std::array<std::uint32_t, 2>& entry, std::uint32_t a,
+                              std::uint32_t b) const {
+  std::array<std::uint32_t, 2> next{a, b};
+  if (!diagonals_.empty()) {
+    for (std::uint32_t& node : next) {
+      const std::uint32_t kind = node < uncut_nodes_ ? 0 : 1;
+      node = a == b ? 0 : 2 * block.placed[kind].hold(node) + kind;
+    }
+    if (entry[0] != entry[1])
+      for (const std::uint32_t name : entry) block.placed[name % 2].let_go(name / 2);
+  }
+  entry = next;
 }
 
 void SpringBlocks::set(const SpringArrays& springs, std::size_t i, SpringPlace& place) {
@@ -175,19 +207,16 @@ void SpringBlocks::set(const SpringArrays& springs, std::size_t i, SpringPlace& 
     enter(wanted);
     place = wanted;
   }
+  const auto copy_to = [&](auto& list, std::uint32_t entry) {
+    write(list, entry, springs.rest_length[i], springs.stiffness[i], springs.damping[i]);
+  };
+  if (!loose) copy_to(diagonals_[place.diagonal], place.entry[0]);
   for (std::size_t end = 0; end < 2; ++end) {
     if (place.block[end] == SpringPlace::none) continue;
     SpringBlock& block = blocks_[place.block[end]];
-    const auto copy_to = [&](auto& list) {
-      write(list, place.entry[end], springs.rest_length[i], springs.stiffness[i], springs.damping[i]);
-    };
-    if (!loose) {
-      copy_to(block.diagonals[place.diagonal]);
-    } else {
-      SpringArrays& list = place.block[1] == SpringPlace::none ? block.inner : block.outer;
-      list.nodes[place.entry[end]] = {end == 0 ? a : b, end == 0 ? b : a};
-      copy_to(list);
-    }
+    SpringArrays& list = place.block[1] == SpringPlace::none ? block.inner : block.outer;
+    name_nodes(block, list.nodes[place.entry[end]], end == 0 ? a : b, end == 0 ? b : a);
+    copy_to(list, place.entry[end]);
   }
 }
 

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "cut/simulation.hpp"
 #include "mesh/vector3.hpp"
 #include "simulation/contact.hpp"
-#include "simulation/diagonals.hpp"
 #include "simulation/drag.hpp"
 #include "simulation/kernels.hpp"
 #include "simulation/padded.hpp"
@@ -89,36 +89,29 @@ std::optional<Error> Simulation::step(HybridMesh& mesh, double time_step, std::s
       if (inverse_mass_[n] > 0) positions_[n] = padded(obstacles.put_out(plain(positions_[n])));
     if (forward) keep_out(obstacles, velocities_);
   }
+  const std::uint64_t before = updates_;
   std::optional<Error> error;
-  std::size_t done = 0;
-  // An explicit step of a cloth that meets nothing is one pass over the blocks.
-  const bool one_pass = surroundings.integrator != Integrator::implicit_euler && obstacles.empty();
-  NodeArrays nodes = node_arrays(one_pass);
-  if (one_pass) to_columns(nodes);
-  for (; done < count; ++done) {
-    error = surroundings.integrator == Integrator::implicit_euler
-                ? implicit_velocities(mesh, time_step, way / time_step, obstacles)
-                : explicit_velocities(mesh, time_step, way / time_step, nodes);
-    if (error) break;
-    if (one_pass) {
-      positions_.swap(next_positions_);
-      columns_swapped_ = !columns_swapped_;
-    } else {
+  if (surroundings.integrator != Integrator::implicit_euler && obstacles.empty() &&
+      surroundings.normal_drag == 0)
+    error = step_free(time_step, way / time_step, count);
+  else
+    for (std::size_t i = 0; i < count && !error; ++i) {
+      error = surroundings.integrator == Integrator::implicit_euler
+                  ? implicit_velocities(mesh, time_step, way / time_step, obstacles)
+                  : explicit_velocities(mesh, time_step, way / time_step);
+      if (error) break;
       if (!forward && !obstacles.empty()) keep_out(obstacles, forces_);
       const PaddedVector* velocities = forward ? velocities_.data() : forces_.data();
       for_each_run([&](std::size_t first, std::size_t last) {
         best_kernels().move(time_step, {&positions_[first], last - first}, velocities + first,
                             &positions_[first]);
       });
+      velocities_.swap(forces_);
+      move_obstacles(surroundings, time_step);
+      if (forward && !obstacles.empty()) keep_out(obstacles, velocities_);
+      ++updates_;
     }
-    velocities_.swap(forces_);
-    nodes.step_on();
-    move_obstacles(surroundings, time_step);
-    if (forward && !obstacles.empty()) keep_out(obstacles, velocities_);
-    ++updates_;
-  }
-  if (done == 0) return error;
-  if (!nodes.padded) from_columns(nodes);
+  if (updates_ == before) return error;
   for_each_run([&](std::size_t first, std::size_t last) {
     for (std::size_t n = first; n < last; ++n) mesh.positions[n] = plain(positions_[n]);
   });
@@ -151,93 +144,57 @@ void Simulation::for_each_run(const std::function<void(std::size_t first, std::s
   });
 }
 
-NodeArrays Simulation::node_arrays(bool moves) {
-  NodeArrays nodes{};
-  nodes.moves = moves;
-  nodes.padded = !moves || surroundings.normal_drag > 0 || !blocks_.all_in_diagonals();
-  if (moves) next_positions_.resize(positions_.size());
-  nodes.positions = positions_.data();
-  nodes.velocities = velocities_.data();
-  nodes.inverse_mass = inverse_mass_.data();
-  nodes.forces = forces_.data();
-  nodes.next_positions = next_positions_.data();
-  if (blocks_.has_diagonals()) {
-    const SpringBlock& block = blocks_.blocks()[0];
-    ColumnSpace space(columns_, 4, block.uncut_nodes + reach_of(block));
-    nodes.position_columns = space.take();
-    nodes.next_position_columns = space.take();
-    nodes.velocity_columns = space.take();
-    nodes.next_velocity_columns = space.take();
-    if (columns_swapped_) {
-      std::swap(nodes.position_columns, nodes.next_position_columns);
-      std::swap(nodes.velocity_columns, nodes.next_velocity_columns);
+VelocityUpdate Simulation::velocity_update(double time_step, double speed_limit) const {
+  const double drag = surroundings.air_drag / material_.density;
+  return {time_step, padded(surroundings.gravity + drag * surroundings.wind), drag, speed_limit,
+          surroundings.integrator == Integrator::forward_euler};
+}
+
+/// As `go_through_blocks` for one step that leaves nodes where they are, from `positions_` and `velocities_`
+/// to `forces_`.
+bool Simulation::find_forces(const VelocityUpdate* update) {
+  const NodeArrays nodes = node_arrays(false);
+  load(nodes);
+  const bool sound = go_through_blocks(update, nodes, 1);
+  take_next_velocities(nodes);
+  return sound;
+}
+
+/// Leaves in `forces_` the next velocities.
+std::optional<Error> Simulation::explicit_velocities(const HybridMesh& mesh, double time_step,
+                                                     double speed_limit) {
+  const VelocityUpdate update = velocity_update(time_step, speed_limit);
+  if (surroundings.normal_drag > 0) find_air_forces(mesh);
+  return find_forces(&update) ? std::nullopt : unsound_velocity(speed_limit);
+}
+
+/// Explicit steps of a cloth that meets nothing: positions and velocities go from array to array, and only
+/// when all steps are done back to `positions_` and `velocities_`.
+std::optional<Error> Simulation::step_free(double time_step, double speed_limit, std::size_t count) {
+  const VelocityUpdate update = velocity_update(time_step, speed_limit);
+  NodeArrays nodes = node_arrays(true);
+  std::optional<Error> error;
+  std::size_t at_once = steps_at_once(), sound = count;
+  load(nodes);
+  for (std::size_t done = 0; done < count && !error;) {
+    // Which of several steps went wrong, and from where, is found by going there again.
+    const std::size_t steps = done < sound ? std::min(at_once, sound - done) : 1;
+    if (go_through_blocks(&update, nodes, steps)) {
+      if (steps % 2 == 1) nodes.step_on();
+      done += steps;
+    } else if (steps == 1) {
+      take_next_velocities(nodes);
+      updates_ += done;
+      error = unsound_velocity(speed_limit);
+      count = done;
+    } else {
+      sound = std::exchange(done, 0);
+      load(nodes);
     }
   }
-  return nodes;
-}
-
-/// Copies positions and velocities to columns, if blocks have diagonals.
-void Simulation::to_columns(const NodeArrays& nodes) const {
-  if (!blocks_.has_diagonals()) return;
-  const std::size_t uncut = blocks_.blocks()[0].uncut_nodes;
-  for_each_run([&](std::size_t first, std::size_t last) {
-    best_kernels().to_columns(nodes.positions, first, std::min(last, uncut), nodes.position_columns);
-    best_kernels().to_columns(nodes.velocities, first, std::min(last, uncut), nodes.velocity_columns);
-  });
-}
-
-/// Copies them back, when steps have left them in columns alone.
-void Simulation::from_columns(const NodeArrays& nodes) const {
-  for_each_run([&](std::size_t first, std::size_t last) {
-    best_kernels().from_columns(nodes.position_columns, first, last, nodes.positions);
-    best_kernels().from_columns(nodes.velocity_columns, first, last, nodes.velocities);
-  });
-}
-
-/// Leaves in `forces_` the next velocities, or without an update what acts on each node but gravity and
-/// air_drag, which go with the mass; one block of nodes after the other or at the same time.
-/// When nodes move as well, starts from columns where there are any, and leaves the next ones there; in
-/// padded vectors only where those are needed. Returns whether all velocities are sound.
-bool Simulation::go_through_blocks(const HybridMesh& mesh, const VelocityUpdate* update,
-                                   const NodeArrays& nodes) {
-  const bool air = surroundings.normal_drag > 0;
-  if (air) find_air_forces(mesh);
-  if (!nodes.moves) to_columns(nodes);
-  const std::vector<PaddedVector>& given = air ? air_forces_ : external_forces_;
-  const Kernels& kernels = best_kernels();
-  const std::vector<SpringBlock>& blocks = blocks_.blocks();
-  executor.for_each(blocks.size(), [&](std::size_t b) {
-    const SpringBlock& block = blocks[b];
-    const bool begun =
-        !given.empty() || !block.inner.nodes.empty() || !block.outer.nodes.empty() || block.diagonals.empty();
-    if (begun && given.empty())
-      std::fill(nodes.forces + block.first, nodes.forces + block.last, PaddedVector{});
-    else if (begun)
-      std::copy(given.data() + block.first, given.data() + block.last, nodes.forces + block.first);
-    for (const std::uint32_t copy : block.copies)
-      nodes.forces[copy] = given.empty() ? PaddedVector{} : given[copy];
-    kernels.add_spring_forces(block.inner, nodes.positions, nodes.velocities, nodes.forces);
-    kernels.add_forces_at_first_node(block.outer, nodes.positions, nodes.velocities, nodes.forces);
-    const bool in_columns = !block.diagonals.empty();
-    bool sound = !in_columns || kernels.advance_block(block, update, begun, nodes);
-    if (update)
-      sound &= kernels.advance_nodes(*update, nodes, in_columns ? block.last : block.first, block.last,
-                                     block.copies);
-    sound_[b] = sound ? 1 : 0;
-  });
-  return std::find(sound_.begin(), sound_.end(), 0) == sound_.end();
-}
-
-/// Finds the next velocities, and moves nodes on as `go_through_blocks` says.
-std::optional<Error> Simulation::explicit_velocities(const HybridMesh& mesh, double time_step,
-                                                     double speed_limit, const NodeArrays& nodes) {
-  const double drag = surroundings.air_drag / material_.density;
-  const VelocityUpdate update{time_step, padded(surroundings.gravity + drag * surroundings.wind), drag,
-                              speed_limit, surroundings.integrator == Integrator::forward_euler};
-  if (go_through_blocks(mesh, &update, nodes)) return std::nullopt;
-  if (!nodes.padded)
-    best_kernels().from_columns(nodes.next_velocity_columns, 0, forces_.size(), forces_.data());
-  return unsound_velocity(speed_limit);
+  if (!error) updates_ += count;
+  if (count > 0) store(nodes);
+  return error;
 }
 
 /// Names the first node whose next velocity is beyond the limit, if there is one.
