@@ -11,6 +11,7 @@
 #include "cutting/merge_on_cut_edges.hpp"
 #include "cutting/polygon_nodes.hpp"
 #include "cutting/work_graph.hpp"
+#include "lattice/scratch.hpp"
 #include "lattice/sort_unique.hpp"
 
 namespace cut {
@@ -28,7 +29,14 @@ std::vector<LatticePoint> lay_out(TriangleWork& work,
   work.stamps.clear();
   work.rendered.clear();
   std::vector<LatticePoint> fresh;
-  std::vector<Index> renumbered(before.nodes.size());
+  lattice::Scratch scratch;
+  lattice::ScratchList<Index> renumbered(before.nodes.size(), &scratch);
+  // And room for what a line adds.
+  const std::size_t room =
+      before.nodes.size() + boundary[0].size() + boundary[1].size() + boundary[2].size() + 2;
+  work.graph.points.reserve(room);
+  work.stamps.reserve(room);
+  work.rendered.reserve(room);
   const auto add = [&](const ArrangementNode& node) {
     work.graph.points.push_back(node.point);
     work.stamps.push_back(node.stamp);
@@ -39,7 +47,9 @@ std::vector<LatticePoint> lay_out(TriangleWork& work,
   for (std::size_t i = 0; i < 3; ++i) {
     work.boundary_counts[i] = static_cast<Index>(boundary[i].size());
     Index section = 0;  // the old section that we are in
-    work.old_section_polygons[i] = {before.section_polygons[i][0]};
+    work.old_section_polygons[i].clear();
+    work.old_section_polygons[i].reserve(boundary[i].size() + 1);
+    work.old_section_polygons[i].push_back(before.section_polygons[i][0]);
     for (const LatticePoint p : boundary[i]) {
       const Index old = before.edge_node(i, section + 1);
       if (section < before.boundary_counts[i] && before.nodes[old].point == p) {
@@ -55,6 +65,7 @@ std::vector<LatticePoint> lay_out(TriangleWork& work,
   }
   for (Index n = before.first_inner_node(); n < before.nodes.size(); ++n)
     renumbered[n] = add(before.nodes[n]);
+  work.graph.edges.reserve(before.edges.size());
   for (const CutEdge& e : before.edges)
     work.graph.edges.push_back({renumbered[e.from], renumbered[e.to], e.left, e.right, e.deviation, false});
   return fresh;
@@ -94,8 +105,9 @@ bool differs_from_before(const TriangleWork& work) {
       work.graph.edges.size() != work.before.edges.size())
     return true;
   using Ends = std::pair<LatticePoint, LatticePoint>;
-  std::vector<Ends> now;
-  std::vector<Ends> then;
+  lattice::Scratch scratch;
+  lattice::ScratchList<Ends> now(&scratch);
+  lattice::ScratchList<Ends> then(&scratch);
   now.reserve(work.graph.edges.size());
   then.reserve(work.before.edges.size());
   for (const GraphEdge& e : work.graph.edges)

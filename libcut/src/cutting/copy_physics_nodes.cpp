@@ -6,6 +6,7 @@
 
 #include "cutting/edge_state.hpp"
 #include "lattice/components.hpp"
+#include "lattice/scratch.hpp"
 #include "lattice/sort_unique.hpp"
 
 namespace cut {
@@ -16,9 +17,11 @@ using Index = std::uint32_t;
 /// The fragments of the triangles around a node, numbered.
 struct Fragments {
   std::span<const AncestorId> around;
-  std::vector<Index> first;  ///< per triangle (+1): number of its first fragment
+  lattice::ScratchList<Index> first;  ///< per triangle (+1): number of its first fragment
 
-  Fragments(const HybridMesh& mesh, AncestorNodeId node) : around(mesh.ancestors.triangles_around(node)) {
+  Fragments(const HybridMesh& mesh, AncestorNodeId node, lattice::Scratch& scratch)
+      : around(mesh.ancestors.triangles_around(node)), first(&scratch) {
+    first.reserve(around.size() + 1);
     first.push_back(0);
     for (const AncestorId t : around)
       first.push_back(first.back() + static_cast<Index>(mesh.fragment_count(t)));
@@ -29,9 +32,10 @@ struct Fragments {
 };
 
 /// Joins fragments that share an uncut section of an edge ending at the node.
-lattice::Components connect(const HybridMesh& mesh, AncestorNodeId node, const Fragments& fragments) {
-  lattice::Components components(fragments.first.back());
-  std::vector<Index> polygons;  // per section, on the first side
+lattice::Components connect(const HybridMesh& mesh, AncestorNodeId node, const Fragments& fragments,
+                            lattice::Scratch& scratch) {
+  lattice::Components components(fragments.first.back(), &scratch);
+  lattice::ScratchList<Index> polygons(&scratch);  // per section, on the first side
   for (std::size_t a = 0; a < fragments.around.size(); ++a) {
     const AncestorId t = fragments.around[a];
     const std::size_t corner = mesh.ancestors.local_node(t, node);
@@ -91,14 +95,17 @@ void for_each_fragment(const HybridMesh& mesh, AncestorNodeId node, const Visit&
 }
 
 Parts parts_of(const HybridMesh& mesh, AncestorNodeId node) {
-  const Fragments fragments(mesh, node);
-  lattice::Components components = connect(mesh, node, fragments);
+  lattice::Scratch scratch;
+  const Fragments fragments(mesh, node, scratch);
+  lattice::Components components = connect(mesh, node, fragments, scratch);
   Parts parts;
   Index roots = 0;
   for (Index i = 0; i < components.size(); ++i) roots += components.root(i) == i ? 1u : 0u;
   if (roots <= 1) return parts;
   std::vector<Copy>& copies = parts.copies;
-  std::vector<Index> copy_of_root(components.size(), HybridMesh::none);
+  lattice::ScratchList<Index> copy_of_root(components.size(), HybridMesh::none, &scratch);
+  parts.copies.reserve(roots);
+  parts.copy_of.reserve(components.size());
   for_each_fragment(mesh, node, [&](AncestorId t, std::size_t corner, Index polygon, Index number) {
     const Index root = components.root(number);
     if (copy_of_root[root] == HybridMesh::none) {

@@ -6,6 +6,7 @@
 
 #include "cutting/work_graph.hpp"
 #include "lattice/faces.hpp"
+#include "lattice/scratch.hpp"
 
 namespace cut {
 namespace {
@@ -15,19 +16,20 @@ using Index = std::uint32_t;
 
 /// Nodes and edges in their final order; edges still carry the old polygons. `graph_edge` tells where each
 /// came from.
-Arrangement canonical(const TriangleWork& work, std::vector<Index>& graph_edge) {
+Arrangement canonical(const TriangleWork& work, std::vector<Index>& graph_edge, lattice::Scratch& scratch) {
   Arrangement result;
   result.boundary_counts = work.boundary_counts;
   const auto& points = work.graph.points;
   const Index first_inner = first_inner_node(work);
-  std::vector<std::uint8_t> used(points.size(), 0);
+  lattice::ScratchList<std::uint8_t> used(points.size(), 0, &scratch);
   for (const GraphEdge& e : work.graph.edges) used[e.from] = used[e.to] = 1;
-  std::vector<Index> order;
+  lattice::ScratchList<Index> order(&scratch);
   for (Index n = 0; n < points.size(); ++n)
     if (n < first_inner || used[n] != 0) order.push_back(n);
   std::sort(order.begin() + first_inner, order.end(),
             [&](Index a, Index b) { return points[a] < points[b]; });
-  std::vector<Index> renumbered(points.size());
+  lattice::ScratchList<Index> renumbered(points.size(), &scratch);
+  result.nodes.reserve(order.size());
   for (const Index n : order) {
     renumbered[n] = static_cast<Index>(result.nodes.size());
     result.nodes.push_back({points[n], work.stamps[n], work.rendered[n] != 0});
@@ -38,6 +40,7 @@ Arrangement canonical(const TriangleWork& work, std::vector<Index>& graph_edge) 
   graph_edge.resize(work.graph.edges.size());
   std::iota(graph_edge.begin(), graph_edge.end(), Index{0});
   std::sort(graph_edge.begin(), graph_edge.end(), [&](Index a, Index b) { return ends(a) < ends(b); });
+  result.edges.reserve(graph_edge.size());
   for (const Index i : graph_edge) {
     const GraphEdge& e = work.graph.edges[i];
     CutEdge edge{renumbered[e.from], renumbered[e.to], e.left, e.right, e.deviation};
@@ -69,19 +72,20 @@ std::int64_t doubled_area(const Arrangement& arrangement, const RenderPolygon& p
 DisjointPolygons detect_disjoint_polygons(const TriangleWork& work) {
   DisjointPolygons result;
   Arrangement& arrangement = result.arrangement;
-  arrangement = canonical(work, result.graph_edge);
+  lattice::Scratch scratch;
+  arrangement = canonical(work, result.graph_edge, scratch);
 
-  std::vector<LatticePoint> points;
+  lattice::ScratchList<LatticePoint> points(&scratch);
   points.reserve(arrangement.nodes.size());
   for (const ArrangementNode& n : arrangement.nodes) points.push_back(n.point);
-  std::vector<lattice::FaceEdge> border;
-  std::vector<Index> border_polygon;  // in `before`
+  lattice::ScratchList<lattice::FaceEdge> border(&scratch);
+  lattice::ScratchList<Index> border_polygon(&scratch);  // in `before`
   for (std::size_t i = 0; i < 3; ++i)
     for (Index k = 0; k <= arrangement.boundary_counts[i]; ++k) {
       border.push_back({arrangement.edge_node(i, k), arrangement.edge_node(i, k + 1)});
       border_polygon.push_back(work.old_section_polygons[i][k]);
     }
-  std::vector<lattice::FaceEdge> inner;
+  lattice::ScratchList<lattice::FaceEdge> inner(&scratch);
   inner.reserve(arrangement.edges.size());
   for (const CutEdge& e : arrangement.edges) inner.push_back({e.from, e.to});
   lattice::Faces faces = lattice::find_faces(points, border, inner);
@@ -102,12 +106,17 @@ DisjointPolygons detect_disjoint_polygons(const TriangleWork& work) {
     arrangement.edges[i].right = faces.face_of_half_edge[first_half_edge + 2 * i + 1];
   }
   Index half_edge = 0;
-  for (std::size_t i = 0; i < 3; ++i)
+  for (std::size_t i = 0; i < 3; ++i) {
+    arrangement.section_polygons[i].reserve(arrangement.boundary_counts[i] + 1);
     for (Index k = 0; k <= arrangement.boundary_counts[i]; ++k, half_edge += 2)
       arrangement.section_polygons[i].push_back(faces.face_of_half_edge[half_edge]);
+  }
+  result.doubled_area.reserve(faces.faces.size());
+  arrangement.polygons.reserve(faces.faces.size());
   for (lattice::Face& face : faces.faces) {
     RenderPolygon polygon;
     polygon.loop_ends = std::move(face.loop_ends);
+    polygon.corners.reserve(face.corners.size());
     for (const Index node : face.corners) {
       polygon.corners.push_back({node, {}});
       arrangement.nodes[node].rendered = true;

@@ -6,6 +6,7 @@
 
 #include "cutting/work_graph.hpp"
 #include "lattice/orientation.hpp"
+#include "lattice/scratch.hpp"
 
 namespace cut {
 namespace {
@@ -18,18 +19,23 @@ class Merger {
   explicit Merger(TriangleWork& work) : work_(work) {}
 
   void run() {
-    std::vector<std::vector<Index>> edges_at(work_.graph.points.size());
+    lattice::Scratch scratch;
+    lattice::ScratchList<Index> degree(work_.graph.points.size(), 0, &scratch);
+    for (const GraphEdge& e : work_.graph.edges)
+      for (const Index n : {e.from, e.to}) ++degree[n];
+    // In the order of their positions, so that the numbering of nodes does not matter.
+    lattice::ScratchList<Index> order(&scratch);
+    for (Index n = first_inner_node(work_); n < work_.graph.points.size(); ++n)
+      if (work_.rendered[n] == 0 && degree[n] == 2) order.push_back(n);
+    if (order.empty()) return;
+    lattice::ScratchList<lattice::ScratchList<Index>> edges_at(work_.graph.points.size(), &scratch);
     for (Index i = 0; i < work_.graph.edges.size(); ++i) {
       edges_at[work_.graph.edges[i].from].push_back(i);
       edges_at[work_.graph.edges[i].to].push_back(i);
     }
-    // In the order of their positions, so that the numbering of nodes does not matter.
-    std::vector<Index> order;
-    for (Index n = first_inner_node(work_); n < work_.graph.points.size(); ++n)
-      if (work_.rendered[n] == 0 && edges_at[n].size() == 2) order.push_back(n);
     std::sort(order.begin(), order.end(),
               [&](Index a, Index b) { return work_.graph.points[a] < work_.graph.points[b]; });
-    std::vector<std::uint8_t> dropped(work_.graph.edges.size(), 0);
+    lattice::ScratchList<std::uint8_t> dropped(work_.graph.edges.size(), 0, &scratch);
     for (const Index n : order) {
       const Index kept = edges_at[n][0];
       const Index gone = edges_at[n][1];

@@ -3,6 +3,8 @@
 /// polygon and do not reach across a cut.
 #pragma once
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -26,18 +28,26 @@ bool visible(LatticePoint p, LatticePoint q, const Edges& edges, const PointOf& 
 /// it.
 class PolygonNodes {
  public:
-  explicit PolygonNodes(std::size_t polygons) : nodes_(polygons) {}
+  explicit PolygonNodes(std::size_t polygons) : first_(polygons + 1) { all_.reserve(32); }
 
-  void add(std::uint32_t polygon, std::uint32_t node) { nodes_[polygon].push_back(node); }
+  void add(std::uint32_t polygon, std::uint32_t node) { all_.push_back({polygon, node}); }
   void finish() {
-    for (auto& list : nodes_) {
-      lattice::sort_unique(list);
+    lattice::sort_unique(all_);
+    nodes_.reserve(all_.size());
+    for (const auto& [polygon, node] : all_) {
+      nodes_.push_back(node);
+      first_[polygon + 1] = nodes_.size();
     }
+    for (std::size_t p = 1; p < first_.size(); ++p) first_[p] = std::max(first_[p], first_[p - 1]);
   }
-  [[nodiscard]] std::span<const std::uint32_t> of(std::uint32_t polygon) const { return nodes_[polygon]; }
+  [[nodiscard]] std::span<const std::uint32_t> of(std::uint32_t polygon) const {
+    return {nodes_.data() + first_[polygon], nodes_.data() + first_[polygon + 1]};
+  }
 
  private:
-  std::vector<std::vector<std::uint32_t>> nodes_;
+  std::vector<std::array<std::uint32_t, 2>> all_;  ///< polygon, node
+  std::vector<std::uint32_t> nodes_;
+  std::vector<std::size_t> first_;  ///< per polygon (+1), in nodes_
 };
 
 /// The nodes of an arrangement's polygons.

@@ -17,6 +17,7 @@ Arrangement working_arrangement(const HybridMesh& mesh, AncestorId ancestor) {
     result.nodes.resize(3);
     RenderPolygon polygon;
     polygon.triangle = TriangleId{ancestor.index()};
+    polygon.corners.reserve(3);
     for (std::uint32_t k = 0; k < 3; ++k) {
       result.nodes[k].point = lattice_corner(k);
       result.nodes[k].rendered = true;

@@ -35,8 +35,8 @@ struct Triangulation {
 
 Triangulation triangulation_of(const Arrangement& arrangement, const lattice::Metric& metric) {
   Triangulation result;
-  Triangulator triangulator;
-  CornerTriangles triangles;
+  thread_local Triangulator triangulator;
+  thread_local CornerTriangles triangles;
   for (const RenderPolygon& polygon : arrangement.polygons) {
     triangulator.triangulate(arrangement, polygon, metric, triangles);
     result.triangles.insert(result.triangles.end(), triangles.begin(), triangles.end());

@@ -8,6 +8,7 @@
 #include "cutting/detect_disjoint_polygons.hpp"
 #include "cutting/edge_state.hpp"
 #include "lattice/orientation.hpp"
+#include "lattice/scratch.hpp"
 
 namespace cut {
 namespace {
@@ -34,9 +35,10 @@ double width(const TriangleWork& work, const DisjointPolygons& polygons, Index p
 }
 
 /// Polygons that share an uncut section with another triangle.
-std::vector<std::uint8_t> joined_to_neighbours(const HybridMesh& mesh, const TriangleWork& work,
-                                               const Arrangement& arrangement) {
-  std::vector<std::uint8_t> joined(arrangement.polygons.size(), 0);
+lattice::ScratchList<std::uint8_t> joined_to_neighbours(const HybridMesh& mesh, const TriangleWork& work,
+                                                        const Arrangement& arrangement,
+                                                        lattice::Scratch& scratch) {
+  lattice::ScratchList<std::uint8_t> joined(arrangement.polygons.size(), 0, &scratch);
   for (std::size_t i = 0; i < 3; ++i) {
     if (!mesh.ancestors.neighbour(work.ancestor, i).valid()) continue;
     const EdgeState* state = mesh.edge_state(mesh.ancestors.triangles[work.ancestor.index()].edges[i]);
@@ -57,9 +59,10 @@ struct Contact {
 };
 
 /// From both sides, sorted by polygon.
-std::vector<Contact> contacts_of(const TriangleWork& work, const DisjointPolygons& polygons) {
+lattice::ScratchList<Contact> contacts_of(const TriangleWork& work, const DisjointPolygons& polygons,
+                                          lattice::Scratch& scratch) {
   const Arrangement& arrangement = polygons.arrangement;
-  std::vector<Contact> contacts;
+  lattice::ScratchList<Contact> contacts(&scratch);
   for (Index i = 0; i < arrangement.edges.size(); ++i) {
     const CutEdge& e = arrangement.edges[i];
     if (e.left == e.right || !work.graph.edges[polygons.graph_edge[i]].is_new ||
@@ -88,22 +91,24 @@ std::vector<Contact> contacts_of(const TriangleWork& work, const DisjointPolygon
 bool weld_crumbs(const HybridMesh& mesh, TriangleWork& work, const DisjointPolygons& polygons) {
   const Arrangement& arrangement = polygons.arrangement;
   if (arrangement.polygons.size() <= work.before.polygons.size()) return false;
-  const auto joined = joined_to_neighbours(mesh, work, arrangement);
-  const std::vector<Contact> contacts = contacts_of(work, polygons);
-  std::vector<Index> crumbs;  // each by its first contact
+  lattice::Scratch scratch;
+  const auto joined = joined_to_neighbours(mesh, work, arrangement, scratch);
+  const auto contacts = contacts_of(work, polygons, scratch);
+  lattice::ScratchList<Index> crumbs(&scratch);  // each by its first contact
   for (Index c = 0; c < contacts.size(); ++c) {
     const Index p = contacts[c].polygon;
     if ((c == 0 || contacts[c - 1].polygon != p) && joined[p] == 0 &&
         width(work, polygons, p) < work.distances.node)
       crumbs.push_back(c);
   }
+  if (crumbs.empty()) return false;
   std::sort(crumbs.begin(), crumbs.end(), [&](Index a, Index b) {
     return std::pair(polygons.doubled_area[contacts[a].polygon], a) <
            std::pair(polygons.doubled_area[contacts[b].polygon], b);
   });
   constexpr Index nobody = HybridMesh::none;
-  std::vector<Index> welded_to(arrangement.polygons.size(), nobody);
-  std::vector<std::uint8_t> touched(arrangement.polygons.size(), 0);
+  lattice::ScratchList<Index> welded_to(arrangement.polygons.size(), nobody, &scratch);
+  lattice::ScratchList<std::uint8_t> touched(arrangement.polygons.size(), 0, &scratch);
   for (const Index first : crumbs) {
     const Index crumb = contacts[first].polygon;
     Index longest = first;
@@ -117,7 +122,7 @@ bool weld_crumbs(const HybridMesh& mesh, TriangleWork& work, const DisjointPolyg
     touched[crumb] = 1;
     for (Index c = first; c < end; ++c) touched[contacts[c].neighbour] = 1;
   }
-  std::vector<std::uint8_t> taken_back(work.graph.edges.size(), 0);
+  lattice::ScratchList<std::uint8_t> taken_back(work.graph.edges.size(), 0, &scratch);
   for (Index i = 0; i < arrangement.edges.size(); ++i) {
     const CutEdge& e = arrangement.edges[i];
     if (e.left != e.right && (welded_to[e.left] == e.right || welded_to[e.right] == e.left) &&
@@ -128,14 +133,15 @@ bool weld_crumbs(const HybridMesh& mesh, TriangleWork& work, const DisjointPolyg
   for (Index i = 0; i < taken_back.size(); ++i)
     if (taken_back[i] == 0) work.graph.edges[kept++] = work.graph.edges[i];
   work.graph.edges.resize(kept);
-  return !crumbs.empty();
+  return true;
 }
 
 }  // namespace
 
 bool keeps_all_fragments(const TriangleWork& work, const DisjointPolygons& polygons) {
   if (!work.graph.complete) return false;
-  std::vector<std::uint8_t> kept(work.before.polygons.size(), 0);
+  lattice::Scratch scratch;
+  lattice::ScratchList<std::uint8_t> kept(work.before.polygons.size(), 0, &scratch);
   for (const Index parent : polygons.parent)
     if (parent < kept.size()) kept[parent] = 1;
   return std::find(kept.begin(), kept.end(), 0) == kept.end();

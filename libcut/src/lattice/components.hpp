@@ -3,6 +3,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <memory_resource>
 #include <numeric>
 #include <vector>
 
@@ -11,7 +12,10 @@ namespace cut::lattice {
 class Components {
  public:
   /// Items 0 to items - 1, each by itself.
-  explicit Components(std::size_t items) { reset(items); }
+  explicit Components(std::size_t items, std::pmr::memory_resource* memory = std::pmr::get_default_resource())
+      : parent_(memory) {
+    reset(items);
+  }
   void reset(std::size_t items) {
     parent_.resize(items);
     std::iota(parent_.begin(), parent_.end(), 0u);
@@ -33,7 +37,7 @@ class Components {
   }
 
  private:
-  std::vector<std::uint32_t> parent_;
+  std::pmr::vector<std::uint32_t> parent_;
 };
 
 }  // namespace cut::lattice

@@ -6,6 +6,7 @@
 #include "lattice/components.hpp"
 #include "lattice/intersection.hpp"
 #include "lattice/orientation.hpp"
+#include "lattice/scratch.hpp"
 
 namespace cut::lattice {
 namespace {
@@ -15,10 +16,10 @@ constexpr Index none = Faces::no_face;
 
 struct HalfEdges {
   std::span<const LatticePoint> points;
-  std::vector<FaceEdge> edges;
+  ScratchList<FaceEdge> edges;
   std::size_t border_count;
-  std::vector<Index> first_out;  ///< per node (+1)
-  std::vector<Index> out;        ///< half-edges that start at each node, counterclockwise
+  ScratchList<Index> first_out;  ///< per node (+1)
+  ScratchList<Index> out;        ///< half-edges that start at each node, counterclockwise
 
   [[nodiscard]] Index origin(Index h) const { return h % 2 == 0 ? edges[h / 2].from : edges[h / 2].to; }
   [[nodiscard]] Index target(Index h) const { return origin(h ^ 1u); }
@@ -53,8 +54,10 @@ struct HalfEdges {
 };
 
 HalfEdges sort_half_edges(std::span<const LatticePoint> points, std::span<const FaceEdge> border,
-                          std::span<const FaceEdge> inner) {
-  HalfEdges g{points, {}, border.size(), {}, {}};
+                          std::span<const FaceEdge> inner, Scratch& scratch) {
+  HalfEdges g{points, ScratchList<FaceEdge>(&scratch), border.size(), ScratchList<Index>(&scratch),
+              ScratchList<Index>(&scratch)};
+  g.edges.reserve(border.size() + inner.size());
   g.edges.assign(border.begin(), border.end());
   g.edges.insert(g.edges.end(), inner.begin(), inner.end());
   const auto count = static_cast<Index>(2 * g.edges.size());
@@ -62,7 +65,7 @@ HalfEdges sort_half_edges(std::span<const LatticePoint> points, std::span<const 
   for (Index h = 0; h < count; ++h) ++g.first_out[g.origin(h) + 1];
   std::partial_sum(g.first_out.begin(), g.first_out.end(), g.first_out.begin());
   g.out.resize(count);
-  std::vector<Index> fill(g.first_out.begin(), g.first_out.end() - 1);
+  ScratchList<Index> fill(g.first_out.begin(), g.first_out.end() - 1, &scratch);
   for (Index h = 0; h < count; ++h) g.out[fill[g.origin(h)]++] = h;
   for (std::size_t n = 0; n < points.size(); ++n)
     std::sort(g.out.begin() + g.first_out[n], g.out.begin() + g.first_out[n + 1],
@@ -73,14 +76,15 @@ HalfEdges sort_half_edges(std::span<const LatticePoint> points, std::span<const 
 /// Closed walks over the usable half-edges: the walk that each belongs to, and the first half-edge of each
 /// walk.
 struct Walks {
-  std::vector<Index> walk_of;
-  std::vector<Index> start;
-  std::vector<std::int64_t> area;  ///< doubled, signed
+  ScratchList<Index> walk_of;
+  ScratchList<Index> start;
+  ScratchList<std::int64_t> area;  ///< doubled, signed
 };
 
 template <class Usable>
-Walks walk_all(const HalfEdges& g, const Usable& usable) {
-  Walks walks;
+Walks walk_all(const HalfEdges& g, const Usable& usable, Scratch& scratch) {
+  Walks walks{ScratchList<Index>(&scratch), ScratchList<Index>(&scratch),
+              ScratchList<std::int64_t>(&scratch)};
   walks.walk_of.assign(2 * g.edges.size(), none);
   for (Index h = 0; h < walks.walk_of.size(); ++h) {
     if (walks.walk_of[h] != none || !usable(h)) continue;
@@ -99,10 +103,10 @@ Walks walk_all(const HalfEdges& g, const Usable& usable) {
 }
 
 /// Component of each node: nodes joined by edges have the same.
-std::vector<Index> components(const HalfEdges& g) {
-  Components joined(g.points.size());
+ScratchList<Index> components(const HalfEdges& g, Scratch& scratch) {
+  Components joined(g.points.size(), &scratch);
   for (const FaceEdge& e : g.edges) joined.join(e.from, e.to);
-  std::vector<Index> component(g.points.size());
+  ScratchList<Index> component(g.points.size(), &scratch);
   for (Index n = 0; n < component.size(); ++n) component[n] = joined.root(n);
   return component;
 }
@@ -124,7 +128,7 @@ bool further_right(const Hit& a, const Hit& b) {
 
 /// The half-edge that a ray from `node` to the left meets first, seen on the side that faces the node, among
 /// the edges of other components (nearest-edge rule). The border guarantees that there is one.
-Index nearest_on_the_left(const HalfEdges& g, const std::vector<Index>& component, Index node) {
+Index nearest_on_the_left(const HalfEdges& g, const ScratchList<Index>& component, Index node) {
   const LatticePoint p = g.points[node];
   Index best = none;
   Hit best_hit{0, 1, 0};
@@ -151,26 +155,29 @@ Index nearest_on_the_left(const HalfEdges& g, const std::vector<Index>& componen
 
 Faces find_faces(std::span<const LatticePoint> points, std::span<const FaceEdge> border,
                  std::span<const FaceEdge> inner) {
-  const HalfEdges g = sort_half_edges(points, border, inner);
+  Scratch scratch;
+  const HalfEdges g = sort_half_edges(points, border, inner, scratch);
   const auto is_inside = [&](Index h) { return !g.outside(h); };
-  const Walks walks = walk_all(g, is_inside);
+  const Walks walks = walk_all(g, is_inside, scratch);
 
   // A walk with positive area is the outside of a hull; any other one is a hole, or a loose slit, in some
   // face.
-  const std::vector<Index> component = components(g);
-  std::vector<Index> leftmost(points.size(), none);  // per component root
+  const ScratchList<Index> component = components(g, scratch);
+  ScratchList<Index> leftmost(points.size(), none, &scratch);  // per component root
   for (Index n = 0; n < points.size(); ++n) {
     Index& best = leftmost[component[n]];
     if (best == none || points[n] < points[best]) best = n;
   }
   Faces result;
-  std::vector<Index> face_of_walk(walks.start.size(), none);
+  result.faces.reserve(static_cast<std::size_t>(
+      std::count_if(walks.area.begin(), walks.area.end(), [](std::int64_t area) { return area > 0; })));
+  ScratchList<Index> face_of_walk(walks.start.size(), none, &scratch);
   for (Index w = 0; w < walks.start.size(); ++w)
     if (walks.area[w] > 0) {
       face_of_walk[w] = static_cast<Index>(result.faces.size());
       result.faces.emplace_back();
     }
-  std::vector<Index> pending;
+  ScratchList<Index> pending(&scratch);
   for (Index w = 0; w < walks.start.size(); ++w) {
     pending.clear();
     Index at = w;
@@ -190,16 +197,18 @@ Faces find_faces(std::span<const LatticePoint> points, std::span<const FaceEdge>
   const auto is_contour = [&](Index h) {
     return !g.outside(h) && result.face_of_half_edge[h] != result.face_of_half_edge[h ^ 1u];
   };
-  const Walks loops = walk_all(g, is_contour);
+  const Walks loops = walk_all(g, is_contour, scratch);
+  ScratchList<Index> corners(&scratch);
   const auto append = [&](Index loop) {
-    Face& face = result.faces[result.face_of_half_edge[loops.start[loop]]];
     const Index start = loops.start[loop];
     Index h = start;
+    corners.clear();
     do {
-      face.corners.push_back(g.origin(h));
+      corners.push_back(g.origin(h));
       h = g.next(h, is_contour);
-    } while (h != start && h != none &&
-             face.corners.size() <= 2 * g.edges.size());  // it ends earlier when planar
+    } while (h != start && h != none && corners.size() <= 2 * g.edges.size());  // it ends earlier when planar
+    Face& face = result.faces[result.face_of_half_edge[start]];
+    face.corners.insert(face.corners.end(), corners.begin(), corners.end());
     face.loop_ends.push_back(static_cast<Index>(face.corners.size()));
   };
   for (const bool hull : {true, false})
