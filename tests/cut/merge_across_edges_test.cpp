@@ -62,34 +62,62 @@ struct Meeting {
   }
 };
 
-/// The number of times, of 500, that a cut which goes on within δn of its end does not meet it.
+cut::TriangleMesh near_edge(Random& random) {
+  return halves(random.between(-0.25, 0.25), random.between(0, 3.141592653589793));
+}
+
+cut::TriangleMesh near_node(Random& random) {
+  const Vector3 node(random.between(-0.2, 0.2), random.between(-0.2, 0.2), 0);
+  return fan(node, 3 + static_cast<std::size_t>(random.between(0, 5)));
+}
+
+/// The number of times, of 500, that two slits whose ends are within δn do not become one.
 template <class Cloth>
-int broken_cuts(const cut::MergeDistances& distances, const Cloth& cloth) {
+int broken_cuts(const cut::MergeDistances& distances, const Cloth& cloth, bool at_once) {
   Random random;
   int broken = 0;
   for (int i = 0; i < 500; ++i) {
     const Meeting m(random, distances.node);
+    const cut::TriangleMesh first = slit(m.from_first, m.first), second = slit(m.from_second, m.second);
     Session s(cloth(random), distances);
-    s.cut(slit(m.from_first, m.first));
-    REQUIRE(cut::pieces(s.mesh).list.size() == 1);
-    s.cut(slit(m.from_second, m.second));
+    if (at_once) {
+      s.cut(scenes::joined({first, second}));
+    } else {
+      s.cut(first);
+      REQUIRE(cut::pieces(s.mesh).list.size() == 1);
+      s.cut(second);
+    }
     if (cut::pieces(s.mesh).list.size() != 2) ++broken;
   }
   return broken;
 }
 
 TEST_CASE("a cut meets its end, wherever a border or a node lies") {
-  const auto near_edge = [](Random& random) {
-    return halves(random.between(-0.25, 0.25), random.between(0, 3.141592653589793));
-  };
-  const auto near_node = [](Random& random) {
-    const Vector3 node(random.between(-0.2, 0.2), random.between(-0.2, 0.2), 0);
-    return fan(node, 3 + static_cast<std::size_t>(random.between(0, 5)));
-  };
   for (const cut::MergeDistances distances : {cut::MergeDistances{0.2, 0.1, 0.05}, {0.2, 0.1, 0.01}}) {
     CAPTURE(distances.edge);
-    CHECK(broken_cuts(distances, near_edge) == 0);
-    CHECK(broken_cuts(distances, near_node) == 0);
+    CHECK(broken_cuts(distances, near_edge, false) == 0);
+    CHECK(broken_cuts(distances, near_node, false) == 0);
+  }
+}
+
+TEST_CASE("two slits of one cut meet, wherever a border lies") {
+  CHECK(broken_cuts({0.2, 0.1, 0.001}, near_edge, true) == 0);
+}
+
+TEST_CASE("two ends of one cut meet across a border from as far as within a triangle") {
+  constexpr cut::MergeDistances distances{0.2, 0.1, 0.001};
+  Random random;
+  for (int i = 0; i < 500; ++i) {
+    const double left = random.between(0.002, 0.09);
+    const double right = random.between(0.002, 0.09);
+    const double up = random.between(-0.1, 0.1);
+    const bool near = std::hypot(left + right, up) < distances.node;
+    Session s(halves(0, 0), distances);
+    s.cut(scenes::joined({slit(3.1, {-left, 0, 0}), slit(0.1, {right, up, 0})}));
+    CAPTURE(left);
+    CAPTURE(right);
+    CAPTURE(up);
+    CHECK(cut::pieces(s.mesh).list.size() == (near ? 2 : 1));
   }
 }
 

@@ -166,6 +166,7 @@ Result<Changes> Cutter::cut(HybridMesh& mesh, const TriangleMesh& cutter) {
   memory_->previous_cut = context.this_cut;
 
   executor.for_each(works.size(), [&](std::size_t i) { merge_cut_endpoints(mesh, works[i], context); });
+  meet_across_edges(mesh, works, context);
   continue_lines(mesh, works, context);
   ClusterCentres next_centres;
   merge_on_physics_edges(mesh, works, context, executor, next_centres);

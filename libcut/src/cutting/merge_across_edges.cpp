@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <limits>
 
 #include "cutting/edge_state.hpp"
 #include "lattice/plane.hpp"
@@ -152,16 +153,22 @@ class Neighbourhood::Walk {
                                    std::min(so_far.node, work.distances.node),
                                    std::min(so_far.edge, work.distances.edge)};
     const std::uint32_t polygon = gates_.back().outer_polygon;
-    for (const std::uint32_t n : neighbour.nodes.of(polygon))
-      if (!on_side(work.before.nodes[n].point, side)) consider(work, corners, n, distances);
+    for (const std::uint32_t n : neighbour.nodes.of(polygon)) {
+      const ArrangementNode& node = work.before.nodes[n];
+      const LineEnd target{node.point, LineEnd::On::node, n, node.point};
+      if (!on_side(node.point, side))
+        consider(work, corners, target, neighbourhood_.context_.recent(node.stamp), distances);
+    }
+    for (const FreeEnd& free :
+         std::ranges::equal_range(neighbourhood_.free_ends_, work.ancestor, {}, &FreeEnd::ancestor))
+      if (free.polygon == polygon)
+        consider(work, corners, {free.point, LineEnd::On::nothing, 0, free.point}, false, distances);
     leave(work, corners, polygon, side, distances);
   }
 
-  void consider(const TriangleWork& work, const PlaneTriangle& corners, std::uint32_t node,
+  void consider(const TriangleWork& work, const PlaneTriangle& corners, const LineEnd& target, bool recent,
                 const MergeDistances& distances) {
-    const ArrangementNode& target = work.before.nodes[node];
     const PlanePoint to = in_plane(corners, target.point);
-    const bool recent = neighbourhood_.context_.recent(target.stamp);
     const double distance = std::sqrt(dot(to - from_, to - from_));
     if (distance > (recent ? distances.cut : distances.node)) return;
     if (best_recent_ > recent || (best_recent_ == recent && best_distance_ <= distance)) return;
@@ -198,7 +205,7 @@ class Neighbourhood::Walk {
       found.way.push_back({gates_[k].outer->ancestor, {gates_[k].outer_polygon, end_on_side(inner), {}}});
     }
     if (hidden(work, inner, target.point)) return;
-    found.way.back().line.b = {target.point, LineEnd::On::node, node, target.point};
+    found.way.back().line.b = target;
     best_ = std::move(found);
     best_recent_ = recent;
     best_distance_ = distance;
@@ -229,8 +236,9 @@ class Neighbourhood::Walk {
   std::optional<NodeAcross> best_;
 };
 
-Neighbourhood::Neighbourhood(const HybridMesh& mesh, const TriangleWork& work, const CutContext& context)
-    : mesh_(mesh), work_(work), context_(context) {}
+Neighbourhood::Neighbourhood(const HybridMesh& mesh, const TriangleWork& work, const CutContext& context,
+                             std::span<const FreeEnd> free_ends)
+    : mesh_(mesh), work_(work), context_(context), free_ends_(free_ends) {}
 Neighbourhood::~Neighbourhood() = default;
 
 Neighbourhood::Neighbour& Neighbourhood::neighbour(AncestorId ancestor) {
@@ -245,6 +253,46 @@ Neighbourhood::Neighbour& Neighbourhood::neighbour(AncestorId ancestor) {
 std::optional<NodeAcross> Neighbourhood::nearest_node(LatticePoint p, LatticePoint other,
                                                       std::uint32_t polygon, bool recent, double distance) {
   return Walk(*this, p, other, recent, distance).run(polygon);
+}
+
+namespace {
+
+/// To the nearest other free end of the same polygon.
+double distance_to_nearest_end(const TriangleWork& work, const LineEnd& end, std::uint32_t polygon) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const CuttingLine& line : work.lines)
+    for (const LineEnd* other : {&line.a, &line.b})
+      if (other != &end && line.polygon == polygon && other->on == LineEnd::On::nothing &&
+          other->point != end.point)
+        nearest = std::min(nearest, work.metric.length(other->point, end.point));
+  return nearest;
+}
+
+}  // namespace
+
+void meet_across_edges(const HybridMesh& mesh, std::vector<TriangleWork>& works, const CutContext& context) {
+  std::vector<FreeEnd> settled;
+  std::vector<FreeEnd> own;
+  for (TriangleWork& work : works) {
+    Neighbourhood seen(mesh, work, context, settled);
+    own.clear();
+    for (CuttingLine& line : work.lines)
+      for (LineEnd* end : {&line.a, &line.b}) {
+        if (end->on != LineEnd::On::nothing) continue;
+        const LatticePoint other = end == &line.a ? line.b.detected : line.a.detected;
+        auto across = settled.empty() ? std::nullopt
+                                      : seen.nearest_node(end->point, other, line.polygon, false,
+                                                          distance_to_nearest_end(work, *end, line.polygon));
+        if (!across) {
+          own.push_back({work.ancestor, line.polygon, end->point});
+          continue;
+        }
+        across->exit.detected = end->detected;
+        *end = across->exit;
+        std::move(across->way.begin(), across->way.end(), std::back_inserter(work.continued));
+      }
+    settled.insert(settled.end(), own.begin(), own.end());
+  }
 }
 
 void continue_lines(const HybridMesh& mesh, std::vector<TriangleWork>& works, const CutContext& context) {

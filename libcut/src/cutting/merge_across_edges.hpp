@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -22,11 +23,20 @@ struct NodeAcross {
   std::vector<ContinuedLine> way;  ///< one for each triangle that is entered; the last one ends at the node
 };
 
+/// An end of this cut that no node has attracted.
+struct FreeEnd {
+  AncestorId ancestor;
+  std::uint32_t polygon;
+  LatticePoint point;
+};
+
 /// What a triangle's line ends see in its neighbours. Arrangements of neighbours are set up when they are
 /// first needed.
 class Neighbourhood {
  public:
-  Neighbourhood(const HybridMesh& mesh, const TriangleWork& work, const CutContext& context);
+  /// @param free_ends  what is seen beside nodes; by ancestor
+  Neighbourhood(const HybridMesh& mesh, const TriangleWork& work, const CutContext& context,
+                std::span<const FreeEnd> free_ends = {});
   ~Neighbourhood();
 
   /// The node across edges that is better than the best one of the triangle itself: a recent one within δc,
@@ -34,6 +44,7 @@ class Neighbourhood {
   /// @param p inside of the triangle, on no edge
   /// @param other the line's other end
   /// @param recent,distance of the best node of the triangle itself; infinite distance when there is none
+  /// Free ends are seen as nodes that are not recent.
   [[nodiscard]] std::optional<NodeAcross> nearest_node(LatticePoint p, LatticePoint other,
                                                        std::uint32_t polygon, bool recent, double distance);
 
@@ -45,8 +56,14 @@ class Neighbourhood {
   const HybridMesh& mesh_;
   const TriangleWork& work_;
   const CutContext& context_;
+  std::span<const FreeEnd> free_ends_;
   std::vector<std::unique_ptr<Neighbour>> neighbours_;
 };
+
+/// Leads ends that are still free, within δn, to those on the other side of an edge, of which the first stays
+/// where it is. Within a triangle merge_free_endpoints does the same. Runs over the works one after the
+/// other. @pre works are sorted by ancestor
+void meet_across_edges(const HybridMesh& mesh, std::vector<TriangleWork>& works, const CutContext& context);
 
 /// Gives the lines that go on in a neighbour to that neighbour's work, which is made if there is none.
 void continue_lines(const HybridMesh& mesh, std::vector<TriangleWork>& works, const CutContext& context);

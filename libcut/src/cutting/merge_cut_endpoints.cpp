@@ -187,6 +187,20 @@ void merge_free_endpoints(TriangleWork& work, const std::vector<LatticePoint>& b
       return std::nullopt;
     return clusters.value(nearest);
   };
+  // The line itself has led its other end there and would vanish.
+  const auto nearest_but = [&](const Clusters& clusters, LatticePoint p, LatticePoint other) {
+    LatticePoint best = other;
+    double best_squared = std::numeric_limits<double>::infinity();
+    clusters.for_each_within(flat(p), [&](spatial::ClusterId c, double squared) {
+      const LatticePoint at = clusters.value(c);
+      if (at == other || std::tie(squared, at) >= std::tie(best_squared, best) ||
+          !visible(p, at, work.before.edges, point_of))
+        return;
+      best = at;
+      best_squared = squared;
+    });
+    return best;
+  };
   for (std::size_t i = 0; i < open.size();) {
     const std::uint32_t polygon = open[i].first;
     Clusters clusters(work.distances.node);
@@ -207,7 +221,9 @@ void merge_free_endpoints(TriangleWork& work, const std::vector<LatticePoint>& b
       for (LineEnd* end : {&line.a, &line.b}) {
         if (line.polygon != polygon) continue;
         if (is_open(*end)) {
-          end->point = nearest_visible(clusters, end->point).value_or(end->point);
+          const LatticePoint other = end == &line.a ? line.b.point : line.a.point;
+          const LatticePoint nearest = nearest_visible(clusters, end->point).value_or(end->point);
+          end->point = nearest != other ? nearest : nearest_but(clusters, end->point, other);
         } else if (end->on == LineEnd::On::node && end->detected != end->point &&
                    !context.recent(work.before.nodes[end->index].stamp)) {
           const auto nearer = nearest_visible(clusters, end->detected);
