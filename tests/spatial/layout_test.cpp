@@ -22,9 +22,9 @@ void check() {
       CHECK(ids % alignof(std::uint32_t) == 0);
       CHECK(values % alignof(Value) == 0);
       CHECK(boxes % alignof(T) == 0);
-      CHECK(boxes >= sizeof(typename Leaf::FrameType) + rows * capacity);
-      CHECK(values >= boxes + rows * capacity * sizeof(T));
-      CHECK(ids >= values + capacity * sizeof(Value));
+      CHECK(values >= sizeof(typename Leaf::FrameType) + rows * capacity);
+      CHECK(boxes >= values + capacity * sizeof(Value));
+      CHECK(ids >= boxes + rows * capacity * sizeof(T));
       CHECK(Leaf::bytes(capacity, rows, true) >= ids + capacity * sizeof(std::uint32_t));
     }
   }

@@ -98,7 +98,7 @@ class TreeIterator {
 
  private:
   void skip_empty() {
-    while (leaf_ < core_->leaf_capacity() && position_ >= core_->leaf(leaf_).count) {
+    while (leaf_ < core_->leaves().size() && position_ >= core_->leaf(leaf_).count) {
       ++leaf_;
       position_ = 0;
     }

@@ -60,7 +60,7 @@ class TreeQueries {
 
   [[nodiscard]] const_iterator begin() const { return {core_, 0}; }
   [[nodiscard]] const_iterator end() const {
-    return {core_, static_cast<std::uint32_t>(core_.leaf_capacity())};
+    return {core_, static_cast<std::uint32_t>(core_.leaves().size())};
   }
 
   /// True if the element of this handle is still there.

@@ -123,6 +123,17 @@ class BoundRelation : public OneByOne<BoundRelation<R, T, D>, T, D> {
     }
     return may;
   }
+  /// Of the children of a node of the overview those that may; some that must.
+  template <class Wide>
+  [[nodiscard]] std::uint64_t wide_may(const Wide& node) const {
+    if constexpr (R == Relation::covers || R == Relation::contains) return node.reaching(q_.max, q_.min);
+    return node.reaching(q_.min, q_.max);
+  }
+  template <class Wide>
+  [[nodiscard]] std::uint64_t wide_must(const Wide& node) const {
+    if constexpr (R == Relation::intersects || R == Relation::covered_by) return node.covered(q_.min, q_.max);
+    return 0;
+  }
   /// The levels decide nearly all; what they leave open is tested.
   template <class Leaf>
   [[nodiscard]] std::uint64_t hits(const Leaf& leaf, std::uint32_t begin, std::uint32_t count) const {

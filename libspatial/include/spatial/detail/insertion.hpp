@@ -117,6 +117,7 @@ Slot append_above(Tree& tree, std::uint32_t node, const TreeBox<Tree>& box, std:
 /// Finds or makes the place for a box and enters it there with its slot index. The value is still missing.
 template <class Tree>
 Slot make_room(Tree& tree, const TreeBox<Tree>& box, std::uint32_t id) {
+  tree.drop_overview();
   std::uint32_t parent = Tree::none;
   std::uint32_t side = 0;
   ChildRef here = tree.root();

@@ -43,6 +43,7 @@ std::vector<const char*> validate(const Core& core) {
     if (!holds) complaints.push_back(rule);
   };
   std::size_t elements = 0;
+  std::size_t leaves = 0;
   std::vector<bool> seen(core.slot_capacity(), false);
   if (core.root().empty()) require(core.root_box() == empty_box<T, D>(), "an empty tree has the empty box");
   visit_all(core, [&](ChildRef ref, std::size_t) {
@@ -55,6 +56,7 @@ std::vector<const char*> validate(const Core& core) {
     const Box<T, D> tight = is_root ? core.root_box() : core.node(parent).child_box(side);
     if (is_leaf) {
       const auto& leaf = core.leaf(ref.index());
+      ++leaves;
       require(leaf.count > 0 && leaf.count <= leaf.capacity,
               "a leaf holds between one element and its capacity");
       require(leaf.count <= Core::leaf_limit || leaf.indivisible,
@@ -94,6 +96,8 @@ std::vector<const char*> validate(const Core& core) {
       }
     }
   });
+  require(core.overview().empty() || core.overview().leaves_reached(core.leaves()) == leaves,
+          "the overview leads to every leaf");
   require(elements == core.size(), "size is the number of elements");
   for (std::uint32_t id = 0; id < seen.size(); ++id) {
     require(seen[id] == (core.place(id).leaf != Core::none), "a free slot has no element");

@@ -44,14 +44,14 @@ struct Leaf {
     return (offset + step - 1) / step * step;
   }
   static constexpr std::size_t levels_offset() { return up_to(sizeof(FrameType), level_block); }
-  static constexpr std::size_t boxes_offset(std::size_t cap, std::size_t row_count) {
-    return up_to(levels_offset() + cap * row_count, alignof(T));
-  }
   static constexpr std::size_t values_offset(std::size_t cap, std::size_t row_count) {
-    return up_to(boxes_offset(cap, row_count) + row_count * cap * sizeof(T), alignof(Value));
+    return up_to(levels_offset() + cap * row_count, alignof(Value));
+  }
+  static constexpr std::size_t boxes_offset(std::size_t cap, std::size_t row_count) {
+    return up_to(values_offset(cap, row_count) + cap * sizeof(Value), alignof(T));
   }
   static constexpr std::size_t ids_offset(std::size_t cap, std::size_t row_count) {
-    return up_to(values_offset(cap, row_count) + cap * sizeof(Value), alignof(std::uint32_t));
+    return up_to(boxes_offset(cap, row_count) + row_count * cap * sizeof(T), alignof(std::uint32_t));
   }
   /// Words of bits, in place of the ids.
   static constexpr std::uint32_t alive_words = 3;

@@ -32,6 +32,7 @@ bool merge_into_first(Tree& tree, std::uint32_t index) {
     if (leaf.capacity >= total && leaf.is_flat() == flat) target = child.index();
   }
   if (target == Tree::none) return false;
+  tree.drop_overview();
   typename Tree::LeafType& home = tree.leaf(target);
   const typename Tree::Arrays to(home);
   for (const ChildRef child : node.child) {

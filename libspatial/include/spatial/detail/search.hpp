@@ -92,6 +92,15 @@ class Waiting {
   std::vector<std::uint32_t> more_;
 };
 
+/// Asks memory for what a query looks at in most leaves: frame, levels and values.
+template <class Core>
+void prefetch_block(const std::byte* block) {
+  // Of half a leaf; to count would be a branch that goes wrong, and would need the leaf's header.
+  constexpr std::size_t half = Core::LeafType::boxes_offset(Core::leaf_limit / 2, 2 * Core::dimension);
+  constexpr std::size_t end = half < 512 ? half : 512;
+  for (std::size_t at = 0; at < end; at += 64) prefetch(block + at);
+}
+
 /// Calls `visit(leaf, position)` for every hit in a leaf until it returns false.
 template <class Core, class Bound, class Visit>
 bool search_leaf(const typename Core::LeafType& leaf, bool all, const Bound& predicate, Visit& visit) {
@@ -111,19 +120,76 @@ bool search_leaf(const typename Core::LeafType& leaf, bool all, const Bound& pre
   return true;
 }
 
+/// The walk through the overview. @pre there is one
+template <class Core, class Bound, class Visit, class Counts>
+bool search_overview(const Core& core, const Bound& predicate, Visit& visit, Counts& counts) {
+  constexpr std::size_t batch = 64;
+  std::uint32_t leaves[batch + level_bits];
+  std::size_t leaf_count = 0;
+  SmallStack<std::uint32_t, stack_inline> nodes;
+  nodes.push(0);
+  while (!nodes.empty()) {
+    const ChildRef here{nodes.pop()};
+    const auto node = core.overview().node(here.index());
+    counts.node();
+    std::uint64_t hit = first_level_bits(node.count);
+    std::uint64_t inside = hit;
+    if (!here.is_inside()) {
+      hit = predicate.wide_may(node);
+      // A query that reaches few children is rarely big enough to cover one.
+      inside = std::popcount(hit) > 4 ? predicate.wide_must(node) : 0;
+    }
+    for (; hit != 0; hit &= hit - 1) {
+      const int i = std::countr_zero(hit);
+      const auto& child = node.children[i];
+      const std::uint32_t bits = child.bits | static_cast<std::uint32_t>((inside >> i) & 1u) << 30;
+      if (ChildRef{bits}.is_leaf()) {
+        leaves[leaf_count++] = bits;
+        prefetch(&core.leaf(ChildRef{bits}.index()));
+        prefetch_block<Core>(core.overview().block(child));
+      } else {
+        nodes.push(bits);
+      }
+    }
+    if (leaf_count <= batch && !nodes.empty()) continue;
+    for (std::size_t i = 0; i < leaf_count; ++i) {
+      const ChildRef ref{leaves[i]};
+      const auto& leaf = core.leaf(ref.index());
+      counts.leaf(leaf.count);
+      if (!search_leaf<Core>(leaf, ref.is_inside(), predicate, visit)) return false;
+    }
+    leaf_count = 0;
+  }
+  return true;
+}
+
 /// Calls `visit(leaf, position)` for every hit until it returns false. Returns whether all were visited.
 template <class Core, class Bound, class Visit, class Counts = NoCounts>
 bool search(const Core& core, const Bound& predicate, Visit&& visit, Counts&& counts = {}) {
   if (core.root().empty() || !predicate.may(core.root_box())) return true;
+  if constexpr (requires { predicate.wide_may(core.overview().node(0)); }) {
+    if (!core.overview().empty()) return search_overview(core, predicate, visit, counts);
+  }
   Waiting waiting(core.root());
   ChildRef here;
   for (;;) {
     while (!waiting.batch_is_full() && waiting.pop_node(here)) {
-      const auto& node = core.node(here.index());
-      counts.node();
-      const std::uint32_t hit = here.is_inside() ? 0x77u : predicate.may_and_must(rows_of<Core>(node));
-      waiting.push(node.child, hit);
-      waiting.prefetch_second(core);
+      for (;;) {
+        const auto& node = core.node(here.index());
+        counts.node();
+        const std::uint32_t hit = here.is_inside() ? 0x77u : predicate.may_and_must(rows_of<Core>(node));
+        // A small query mostly goes straight down: so the next node is known soonest.
+        if ((hit & (hit - 1)) == 0 && hit != 0) {
+          const ChildRef only = node.child[std::countr_zero(hit)];
+          if (only.is_node()) {
+            here = only;
+            continue;
+          }
+        }
+        waiting.push(node.child, hit);
+        waiting.prefetch_second(core);
+        break;
+      }
     }
     if (waiting.leaf_count() == 0) return true;
     // A leaf's levels are two steps away: first all headers are asked for, then the levels of the next one.
@@ -131,10 +197,7 @@ bool search(const Core& core, const Bound& predicate, Visit&& visit, Counts&& co
     for (std::size_t i = 0; i < waiting.leaf_count(); ++i) {
       const ChildRef ref = waiting.leaf(i);
       if (i + 1 < waiting.leaf_count()) {
-        const auto& soon = core.leaf(waiting.leaf(i + 1).index());
-        // As much as most leaves have; to count would be a branch that goes wrong.
-        constexpr std::size_t end = Core::LeafType::boxes_offset(Core::leaf_limit / 2, 2 * Core::dimension);
-        for (std::size_t at = 0; at < end; at += 64) prefetch(soon.data + at);
+        prefetch_block<Core>(core.leaf(waiting.leaf(i + 1).index()).data);
       }
       const auto& leaf = core.leaf(ref.index());
       counts.leaf(leaf.count);

@@ -75,6 +75,7 @@ class TreeCore : public TreeStorage<Value, T, D, Allocator> {
   /// Gives an element another box. @pre the slot is alive, is_valid(box)
   void move(std::uint32_t id, const BoxType& box) {
     this->make_slots();
+    this->drop_overview();
     const Slot where = this->slot(id);
     LeafType& home = this->leaf(where.leaf);
     const bool same_place =

@@ -14,6 +14,7 @@
 #include "cell.hpp"
 #include "leaf.hpp"
 #include "node.hpp"
+#include "overview.hpp"
 #include "slot.hpp"
 
 namespace spatial::detail {
@@ -42,8 +43,7 @@ class TreeStorage {
   static_assert(leaf_limit <= LeafType::most_without_ids);
   static constexpr std::uint32_t least_capacity = level_block;  ///< of a leaf that is inserted into
 
-  explicit TreeStorage(const Allocator& allocator)
-      : allocator_(allocator), nodes_(allocator), leaves_(allocator), slots_(allocator) {}
+  explicit TreeStorage(const Allocator& a) : allocator_(a), nodes_(a), leaves_(a), slots_(a), overview_(a) {}
   TreeStorage(const TreeStorage&) = delete;
   TreeStorage& operator=(const TreeStorage&) = delete;
   ~TreeStorage() { clear(); }
@@ -60,7 +60,7 @@ class TreeStorage {
   /// @pre has_slots()
   [[nodiscard]] Slot& slot(std::uint32_t index) { return slots_[index]; }
   [[nodiscard]] bool has_slots() const { return slots_.implied() == 0; }
-  [[nodiscard]] std::size_t leaf_capacity() const { return leaves_.size(); }
+  [[nodiscard]] const Leaves& leaves() const { return leaves_; }
   [[nodiscard]] std::size_t slot_capacity() const { return slots_.size(); }
   [[nodiscard]] bool is_alive(std::uint32_t id, std::uint32_t generation) const {
     if (id >= slots_.size()) return false;
@@ -90,6 +90,10 @@ class TreeStorage {
   /// Whether the box of a big leaf may be too large (shrink_leaf).
   [[nodiscard]] bool is_loose() const { return state_.any_loose; }
   void set_loose() { state_.any_loose = true; }
+
+  /// Empty if there is none: in small trees, and after an insertion or a move.
+  [[nodiscard]] const Overview<T, D, Allocator>& overview() const { return overview_; }
+  void drop_overview() noexcept { overview_.clear(); }
 
   // --- links: what hangs at the side of a node, or at `none` the root ---
 
@@ -245,6 +249,8 @@ class TreeStorage {
     }
     Build<TreeStorage> fresh(allocator_, slots);
     fresh.run(entries);
+    Overview<T, D, Allocator> overview(allocator_);
+    overview.build(fresh.nodes, fresh.leaves, fresh.root);
     if (slots) {
       slots_.grow(values.size());
     } else {
@@ -280,6 +286,7 @@ class TreeStorage {
     leaves_.clear();
     nodes_.swap(fresh.nodes);
     leaves_.swap(fresh.leaves);
+    overview_.swap(overview);
     if (slots) slots_.free_unused(first_new, slots_.size());
     state_ = {none, none, fresh.root, fresh.root_box, size() + added, false};
   }
@@ -309,6 +316,7 @@ class TreeStorage {
         ::new (static_cast<void*>(to.values() + i)) Value(make(from.values()[i]));
       }
     }
+    overview_.assign(other.overview_, leaves_);
     state_ = other.state_;
   }
 
@@ -317,6 +325,7 @@ class TreeStorage {
     nodes_.clear();
     leaves_.clear();
     slots_.clear();
+    overview_.clear();
     state_ = {};
   }
 
@@ -328,6 +337,7 @@ class TreeStorage {
     nodes_.swap(other.nodes_);
     leaves_.swap(other.leaves_);
     slots_.swap(other.slots_);
+    overview_.swap(other.overview_);
     swap(state_, other.state_);
   }
 
@@ -340,6 +350,7 @@ class TreeStorage {
     nodes_ = std::move(other.nodes_);
     leaves_ = std::move(other.leaves_);
     slots_.take_over(other.slots_);
+    overview_.take_over(other.overview_);
     state_ = std::exchange(other.state_, {});
     other.leaves_.clear();
     other.nodes_.clear();
@@ -347,7 +358,8 @@ class TreeStorage {
 
   /// Bytes of the tables, used and reserved, without the leaves' blocks.
   [[nodiscard]] std::size_t table_bytes() const {
-    return nodes_.capacity() * sizeof(NodeType) + leaves_.capacity() * sizeof(LeafType) + slots_.bytes();
+    return nodes_.capacity() * sizeof(NodeType) + leaves_.capacity() * sizeof(LeafType) + slots_.bytes() +
+           overview_.bytes();
   }
 
  private:
@@ -361,6 +373,7 @@ class TreeStorage {
   Nodes nodes_;
   Leaves leaves_;
   SlotTable<Rebound<Slot>> slots_;
+  Overview<T, D, Allocator> overview_;
   struct State {
     std::uint32_t free_node = none;
     std::uint32_t free_leaf = none;
