@@ -236,6 +236,7 @@ void visit_first(const Core& core, const Metric& metric, const Filter& filter, s
     for (const std::uint32_t s : order) {
       if (((near >> s) & 1u) == 0 || node.child[s].empty()) continue;
       if (!all_pass && !filter.may(node.child_box(s))) continue;
+      if (node.child[s].is_leaf()) prefetch(&core.leaf(node.child[s].index()));
       waiting.push({keys[s], node.child[s]});
     }
   };
