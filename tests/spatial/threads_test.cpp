@@ -5,6 +5,7 @@
 #include <spatial/bounding_box_ternary_tree.hpp>
 #include <spatial/point_cluster_dictionary.hpp>
 #include <thread>
+#include <utility>
 #include <vector>
 
 TEST_CASE("many threads may ask one tree and one dictionary") {
@@ -15,6 +16,9 @@ TEST_CASE("many threads may ask one tree and one dictionary") {
     tree.insert(p, i);
     dictionary.insert_or_merge(p, i);
   }
+  std::vector<std::pair<spatial::Point<double, 2>, int>> points;
+  for (auto i = tree.begin(); i != tree.end(); ++i) points.push_back({i.box().min, *i});
+  const spatial::BoundingBoxTernaryTree<int, double, 2> loaded(points.begin(), points.end());
   std::atomic<std::size_t> found{0};
   std::vector<std::thread> threads;
   for (int t = 0; t < 4; ++t) {
@@ -22,6 +26,7 @@ TEST_CASE("many threads may ask one tree and one dictionary") {
       for (int i = 0; i < 71; ++i) {
         const spatial::Point<double, 2> p{i * 1.0, i * 1.0};
         found += tree.count(spatial::intersects(p));
+        found += loaded.count(spatial::intersects(p));
         found += tree.query(spatial::nearest(p, 3), [](int) {});
         found += tree.pairs([n = 0](int, int) mutable { return ++n < 10; });
         found += dictionary.find_nearest(p).valid() ? 1 : 0;

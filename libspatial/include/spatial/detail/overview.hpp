@@ -83,7 +83,7 @@ class Overview {
   }
   /// Where the block of a leaf most likely is: good for nothing but a prefetch.
   [[nodiscard]] const std::byte* block(const OverviewChild& child) const {
-    return reinterpret_cast<const std::byte*>(blocks_ + std::uintptr_t{child.block} * block_step);
+    return blocks_ + std::size_t{child.block} * block_step;
   }
   [[nodiscard]] std::size_t bytes() const { return units_.capacity() * sizeof(Unit); }
 
@@ -167,7 +167,7 @@ class Overview {
   using Units = std::vector<Unit, UnitAllocator>;
   static constexpr std::size_t least_nodes = 8;
   static constexpr std::uint32_t nowhere = 0xffffffffu;
-  static constexpr std::uintptr_t block_step = 16;  // less than which no two blocks are apart
+  static constexpr std::size_t block_step = 16;  // less than which no two blocks are apart
   // A node: its frame, the number of children, their levels as a leaf has them, the children.
   static constexpr std::size_t levels_offset =
       (sizeof(Frame<T, D>) + sizeof(std::uint32_t) + level_block - 1) / level_block * level_block;
@@ -263,20 +263,22 @@ class Overview {
     }
   }
 
+  static std::uintptr_t address(const std::byte* block) { return reinterpret_cast<std::uintptr_t>(block); }
+
   /// Notes where the blocks of leaves are. A block that is too far from the others is not found.
   template <class Leaves>
   void locate(const Leaves& leaves) {
-    blocks_ = ~std::uintptr_t{0};
+    blocks_ = nullptr;
     for (const auto& leaf : leaves) {
-      if (leaf.data != nullptr) blocks_ = std::min(blocks_, reinterpret_cast<std::uintptr_t>(leaf.data));
+      if (leaf.data != nullptr && (blocks_ == nullptr || address(leaf.data) < address(blocks_)))
+        blocks_ = leaf.data;
     }
     for (std::uint32_t place = 0; place < units_.size();) {
       const NodeType here = node(place);
       for (OverviewChild* child = here.children; child != here.children + here.count; ++child) {
         const ChildRef ref{child->bits};
         if (!ref.is_leaf() || leaves[ref.index()].data == nullptr) continue;
-        const std::uintptr_t steps =
-            (reinterpret_cast<std::uintptr_t>(leaves[ref.index()].data) - blocks_) / block_step;
+        const std::uintptr_t steps = (address(leaves[ref.index()].data) - address(blocks_)) / block_step;
         child->block = steps <= nowhere ? static_cast<std::uint32_t>(steps) : 0;
       }
       place += static_cast<std::uint32_t>(units_for(here.count));
@@ -284,7 +286,7 @@ class Overview {
   }
 
   Units units_;
-  std::uintptr_t blocks_ = 0;  ///< the lowest address of a block
+  const std::byte* blocks_ = nullptr;  ///< the block with the lowest address
 };
 
 }  // namespace spatial::detail
