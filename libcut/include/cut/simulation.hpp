@@ -84,9 +84,10 @@ class Simulation {
   [[nodiscard]] static Result<Simulation> build(const HybridMesh& mesh, const Material& material);
 
   /// Moves the mesh on by `count` steps of `time_step` seconds each, and the obstacles; calls mesh.moved().
-  /// O(count · mesh), an implicit step times its iterations; allocates only in the first implicit step after
-  /// a cut, and where it meets more contacts than before. Nodes that start inside of an obstacle are put on
-  /// its surface.
+  /// O(count · mesh), an implicit step times its iterations; allocates only work space, in the first step
+  /// after a cut and where an implicit one meets more contacts than before. Nodes that start inside of an
+  /// obstacle are put on its surface. The result is that of one call after the other, but large meshes take
+  /// less time for explicit steps in one call.
   ///
   /// Errors: bad_parameter for a time step or surroundings out of range, and for a mesh with cuts that were
   /// not applied (nothing changes); unstable when a position or velocity stops being finite or a node goes

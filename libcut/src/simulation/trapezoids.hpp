@@ -8,6 +8,7 @@
 /// are made up for.
 #pragma once
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 
 #include "cut/executor.hpp"
@@ -45,8 +46,8 @@ void go_in_trapezoids(const Executor& executor, std::size_t blocks, std::size_t 
     return;
   }
   // Parts are so large that those in the second loop do not meet. The first and the last one have half the
-  // size and are done in one turn, so that all turns take the same time.
-  const std::size_t parts = std::min<std::size_t>(8, blocks / (2 * (steps - 1)));
+  // size and are done in one turn, so that all turns take the same time; two, four or eight of them.
+  const std::size_t parts = std::bit_floor(std::min<std::size_t>(8, blocks / (2 * (steps - 1))));
   const auto border = [&](std::size_t i) { return (2 * i + 1) * blocks / (2 * parts); };
   executor.for_each(parts, [&](std::size_t i) {
     const bool at_end = i + 1 == parts;
