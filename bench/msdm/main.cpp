@@ -74,8 +74,7 @@ void speeds() {
     msdm::PlainCloth plain(mesh);
     const std::size_t springs = ours.simulation.spring_count();
     const std::size_t steps = std::max(steps_of_frame, 300'000 / springs);
-    // The others go through all of memory in each step, where there is more than a cache holds.
-    const std::size_t theirs = springs > 100'000 ? 4 : steps;
+    const std::size_t theirs = std::max<std::size_t>(4, 300'000 / springs);
     const auto times = [theirs](auto step) {
       return [theirs, step] {
         for (std::size_t i = 0; i < theirs; ++i) step();
