@@ -9,13 +9,14 @@
 
 namespace cut::lattice {
 
-/// Lives as long as the function that has it; so must the lists.
-class Scratch : public std::pmr::monotonic_buffer_resource {
- public:
-  Scratch() : std::pmr::monotonic_buffer_resource(space_.data(), space_.size()) {}
+struct ScratchSpace {
+  alignas(std::max_align_t) std::array<std::byte, 8192> space;
+};
 
- private:
-  alignas(std::max_align_t) std::array<std::byte, 8192> space_;
+/// Lives as long as the function that has it; so must the lists.
+class Scratch : ScratchSpace, public std::pmr::monotonic_buffer_resource {
+ public:
+  Scratch() : std::pmr::monotonic_buffer_resource(space.data(), space.size()) {}
 };
 
 /// A list in such memory.
