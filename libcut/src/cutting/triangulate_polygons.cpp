@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "lattice/per_thread.hpp"
 #include "lattice/sort_unique.hpp"
 #include "lattice/triangulation.hpp"
 
@@ -35,8 +36,8 @@ struct Triangulation {
 
 Triangulation triangulation_of(const Arrangement& arrangement, const lattice::Metric& metric) {
   Triangulation result;
-  thread_local Triangulator triangulator;
-  thread_local CornerTriangles triangles;
+  SNIP_PER_THREAD Triangulator triangulator;
+  SNIP_PER_THREAD CornerTriangles triangles;
   for (const RenderPolygon& polygon : arrangement.polygons) {
     triangulator.triangulate(arrangement, polygon, metric, triangles);
     result.triangles.insert(result.triangles.end(), triangles.begin(), triangles.end());

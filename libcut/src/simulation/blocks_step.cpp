@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "cut/simulation.hpp"
+#include "lattice/per_thread.hpp"
 #include "simulation/diagonals.hpp"
 #include "simulation/kernels.hpp"
 #include "simulation/padded.hpp"
@@ -81,7 +82,7 @@ bool advance_placed(const SpringBlock& block, const VelocityUpdate* update, cons
 bool advance_in_columns(const SpringBlock& block, std::span<const SpringDiagonal> diagonals,
                         const VelocityUpdate* update, const Vectors& given, const NodeArrays& nodes,
                         ForceWindow& window) {
-  thread_local PlacedArrays placed;
+  SNIP_PER_THREAD PlacedArrays placed;
   const bool lists = !block.placed[0].nodes().empty() || !block.placed[1].nodes().empty();
   NodeRange range{diagonals, block.first, block.last, nullptr};
   ColumnArrays sums{};
@@ -101,7 +102,7 @@ bool advance_in_columns(const SpringBlock& block, std::span<const SpringDiagonal
 
 /// Of the thread that asks, by step where several go on in turn.
 std::vector<ForceWindow>& own_windows() {
-  thread_local std::vector<ForceWindow> windows;
+  SNIP_PER_THREAD std::vector<ForceWindow> windows;
   return windows;
 }
 
