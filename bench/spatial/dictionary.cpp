@@ -4,7 +4,6 @@
 
 #include <boost/geometry.hpp>
 #include <boost/geometry/index/rtree.hpp>
-#include <nanoflann.hpp>
 #include <random>
 #include <spatial/point_cluster_dictionary.hpp>
 #include <string>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "data.hpp"
+#include "flann.hpp"
 
 namespace {
 
@@ -78,17 +78,6 @@ class MapGrid {
 };
 
 template <class T, std::size_t D>
-struct Cloud {
-  const std::vector<spatial::Point<T, D>>& points;
-  std::size_t kdtree_get_point_count() const { return points.size(); }
-  T kdtree_get_pt(std::size_t i, std::size_t axis) const { return points[i][axis]; }
-  template <class B>
-  bool kdtree_get_bbox(B&) const {
-    return false;
-  }
-};
-
-template <class T, std::size_t D>
 void add(std::size_t count, const std::string& type) {
   namespace bg = boost::geometry;
   const T distance = static_cast<T>(data::merge_distance<D>(count));
@@ -151,21 +140,11 @@ void add(std::size_t count, const std::string& type) {
     for (const auto& p : points) {
       if (dictionary.insert_or_merge(p, 0).inserted) centres.push_back(p);
     }
-    const Cloud<T, D> held{centres};
-    nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<T, Cloud<T, D>>, Cloud<T, D>,
-                                        static_cast<int>(D), std::uint32_t>
-        tree(static_cast<int>(D), held, nanoflann::KDTreeSingleIndexAdaptorParams(16));
-    tree.buildIndex();
-    std::vector<std::pair<std::uint32_t, T>> found;
-    nanoflann::SearchParams parameters;
-    parameters.sorted = false;
+    peers::Flann<T, D> tree(centres);
     std::size_t sum = 0;
     for (auto _ : state) {
       sum = 0;
-      for (const auto& p : points) {
-        tree.radiusSearch(p.data(), distance * distance, found, parameters);
-        for (const auto& f : found) sum += f.first;
-      }
+      for (const auto& p : points) tree.within(p, distance, [&](std::uint32_t i) { sum += i; });
       benchmark::DoNotOptimize(sum);
     }
     state.counters["answer"] = static_cast<double>(sum);

@@ -3,8 +3,7 @@
 #pragma once
 #include <CGAL/box_intersection_d.h>
 
-#include <nanoflann.hpp>
-
+#include "flann.hpp"
 #include "tree_benchmarks.hpp"
 
 namespace tree_benchmarks {
@@ -43,23 +42,10 @@ void add_cgal_pairs(const std::string& data_name, std::size_t count, const std::
       ->Unit(benchmark::kMillisecond);
 }
 
-template <class T, std::size_t D>
-struct Cloud {
-  const std::vector<spatial::Point<T, D>>& points;
-  std::size_t kdtree_get_point_count() const { return points.size(); }
-  T kdtree_get_pt(std::size_t i, std::size_t axis) const { return points[i][axis]; }
-  template <class B>
-  bool kdtree_get_bbox(B&) const {
-    return false;
-  }
-};
-
 /// Points, against nanoflann.
 template <class T, std::size_t D>
 void add_points(std::size_t count, const std::string& type) {
   using Tree = spatial::BoundingBoxTernaryTree<std::uint32_t, T, D>;
-  using Flann = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<T, Cloud<T, D>>, Cloud<T, D>,
-                                                    static_cast<int>(D), std::uint32_t>;
   static std::vector<spatial::Point<T, D>> points;
   const auto get = [=]() -> const std::vector<spatial::Point<T, D>>& {
     if (points.size() != count) {
@@ -87,19 +73,12 @@ void add_points(std::size_t count, const std::string& type) {
       state.counters["answer"] = static_cast<double>(sum);
     })->Unit(benchmark::kMillisecond);
     benchmark::RegisterBenchmark((name + "/nanoflann").c_str(), [=](benchmark::State& state) {
-      const Cloud<T, D> cloud{get()};
-      Flann tree(static_cast<int>(D), cloud, nanoflann::KDTreeSingleIndexAdaptorParams(16));
-      tree.buildIndex();
+      peers::Flann<T, D> tree(get());
       const auto asked = queries();
-      std::vector<std::uint32_t> ids(k);
-      std::vector<T> distances(k);
       std::size_t sum = 0;
       for (auto _ : state) {
         sum = 0;
-        for (const auto& q : asked) {
-          tree.knnSearch(q.min.data(), k, ids.data(), distances.data());
-          for (const auto i : ids) sum += i;
-        }
+        for (const auto& q : asked) tree.nearest(q.min, k, [&](std::uint32_t i) { sum += i; });
         benchmark::DoNotOptimize(sum);
       }
       state.counters["answer"] = static_cast<double>(sum);

@@ -2,13 +2,13 @@
 // number of elements and type. Out: the sum that came out, so that peers can be compared.
 #include <cstdio>
 #include <cstdlib>
-#include <nanoflann.hpp>
 #include <random>
 #include <spatial/point_cluster_dictionary.hpp>
 #include <string>
 #include <vector>
 
 #include "spatial/data.hpp"
+#include "spatial/flann.hpp"
 #include "spatial/peers.hpp"
 
 namespace {
@@ -21,20 +21,6 @@ template <class F>
 
 template <class T, std::size_t D>
 using Points = std::vector<spatial::Point<T, D>>;
-
-template <class T, std::size_t D>
-struct Cloud {
-  const Points<T, D>& points;
-  std::size_t kdtree_get_point_count() const { return points.size(); }
-  T kdtree_get_pt(std::size_t i, std::size_t axis) const { return points[i][axis]; }
-  template <class B>
-  bool kdtree_get_bbox(B&) const {
-    return false;
-  }
-};
-template <class T, std::size_t D>
-using Flann = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<T, Cloud<T, D>>, Cloud<T, D>,
-                                                  static_cast<int>(D), std::uint32_t>;
 
 template <class Peer, class T, std::size_t D>
 std::size_t run_boxes(const std::string& operation, unsigned number,
@@ -77,16 +63,9 @@ std::size_t run_points(unsigned number, const std::string& peer, const Points<T,
       return sum;
     });
   }
-  const Cloud<T, D> cloud{points};
-  Flann<T, D> tree(static_cast<int>(D), cloud, nanoflann::KDTreeSingleIndexAdaptorParams(16));
-  tree.buildIndex();
-  std::vector<std::uint32_t> ids(number);
-  std::vector<T> distances(number);
+  peers::Flann<T, D> tree(points);
   return measured([&] {
-    for (const auto& q : asked) {
-      tree.knnSearch(q.min.data(), number, ids.data(), distances.data());
-      for (const auto i : ids) sum += i;
-    }
+    for (const auto& q : asked) tree.nearest(q.min, number, [&](std::uint32_t i) { sum += i; });
     return sum;
   });
 }
@@ -109,17 +88,9 @@ std::size_t run_within(const std::string& peer, std::size_t count) {
       return sum;
     });
   }
-  const Cloud<T, D> held{centres};
-  Flann<T, D> tree(static_cast<int>(D), held, nanoflann::KDTreeSingleIndexAdaptorParams(16));
-  tree.buildIndex();
-  std::vector<std::pair<std::uint32_t, T>> found;
-  nanoflann::SearchParams parameters;
-  parameters.sorted = false;
+  peers::Flann<T, D> tree(centres);
   return measured([&] {
-    for (const auto& p : points) {
-      tree.radiusSearch(p.data(), distance * distance, found, parameters);
-      for (const auto& f : found) sum += f.first;
-    }
+    for (const auto& p : points) tree.within(p, distance, [&](std::uint32_t i) { sum += i; });
     return sum;
   });
 }

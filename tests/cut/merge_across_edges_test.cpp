@@ -104,20 +104,33 @@ TEST_CASE("two slits of one cut meet, wherever a border lies") {
   CHECK(broken_cuts({0.2, 0.1, 0.001}, near_edge, true) == 0);
 }
 
+/// Ends of two slits on both sides of an edge, the one that comes from the left at (-left, 0).
+struct Pair {
+  double left;
+  double right;
+  double up;
+  bool near;  ///< within δn
+
+  Pair(Random& random, double least_left, double least_right, const cut::MergeDistances& distances)
+      : left(random.between(least_left, 0.09)),
+        right(random.between(least_right, 0.09)),
+        up(random.between(-0.1, 0.1)),
+        near(std::hypot(left + right, up) < distances.node) {}
+  [[nodiscard]] cut::TriangleMesh from_left() const { return slit(3.1, {-left, 0, 0}); }
+  [[nodiscard]] cut::TriangleMesh from_right() const { return slit(0.1, {right, up, 0}); }
+};
+
 TEST_CASE("two ends of one cut meet across a border from as far as within a triangle") {
   constexpr cut::MergeDistances distances{0.2, 0.1, 0.001};
   Random random;
   for (int i = 0; i < 500; ++i) {
-    const double left = random.between(0.002, 0.09);
-    const double right = random.between(0.002, 0.09);
-    const double up = random.between(-0.1, 0.1);
-    const bool near = std::hypot(left + right, up) < distances.node;
+    const Pair ends(random, 0.002, 0.002, distances);
     Session s(halves(0, 0), distances);
-    s.cut(scenes::joined({slit(3.1, {-left, 0, 0}), slit(0.1, {right, up, 0})}));
-    CAPTURE(left);
-    CAPTURE(right);
-    CAPTURE(up);
-    CHECK(cut::pieces(s.mesh).list.size() == (near ? 2 : 1));
+    s.cut(scenes::joined({ends.from_left(), ends.from_right()}));
+    CAPTURE(ends.left);
+    CAPTURE(ends.right);
+    CAPTURE(ends.up);
+    CHECK(cut::pieces(s.mesh).list.size() == (ends.near ? 2 : 1));
   }
 }
 
@@ -126,20 +139,17 @@ TEST_CASE("an end sees a node across an edge from as far as one on its own side"
   Random random;
   for (int i = 0; i < 500; ++i) {
     // The first slit ends inside of the left triangle, and nothing is near enough to attract its end.
-    const double left = random.between(0.011, 0.09);
-    const double right = random.between(0.001, 0.09);
-    const double up = random.between(-0.1, 0.1);
-    const bool near = std::hypot(left + right, up) < distances.node;
+    const Pair ends(random, 0.011, 0.001, distances);
     Session s(halves(0, 0), distances);
-    s.cut(slit(3.1, {-left, 0, 0}));
+    s.cut(ends.from_left());
     s.cutter = cut::Cutter(distances);  // knows of no end
-    s.cut(slit(0.1, {right, up, 0}));
-    CAPTURE(left);
-    CAPTURE(right);
-    CAPTURE(up);
-    if (near) CHECK(cut::pieces(s.mesh).list.size() == 2);
+    s.cut(ends.from_right());
+    CAPTURE(ends.left);
+    CAPTURE(ends.right);
+    CAPTURE(ends.up);
+    if (ends.near) CHECK(cut::pieces(s.mesh).list.size() == 2);
     // On the edge the end may have been led to it by up to δe, and so come within δn.
-    if (right > distances.edge && !near) CHECK(cut::pieces(s.mesh).list.size() == 1);
+    if (ends.right > distances.edge && !ends.near) CHECK(cut::pieces(s.mesh).list.size() == 1);
   }
 }
 

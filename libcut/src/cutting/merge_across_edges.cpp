@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <iterator>
 #include <limits>
+#include <utility>
 
 #include "cutting/edge_state.hpp"
 #include "lattice/plane.hpp"
@@ -270,6 +271,12 @@ double distance_to_nearest_end(const TriangleWork& work, const LineEnd& end, std
 
 }  // namespace
 
+void lead_across(NodeAcross&& across, LineEnd& end, TriangleWork& work) {
+  across.exit.detected = end.detected;
+  end = across.exit;
+  std::move(across.way.begin(), across.way.end(), std::back_inserter(work.continued));
+}
+
 void meet_across_edges(const HybridMesh& mesh, std::vector<TriangleWork>& works, const CutContext& context) {
   std::vector<FreeEnd> settled;
   std::vector<FreeEnd> own;
@@ -287,9 +294,7 @@ void meet_across_edges(const HybridMesh& mesh, std::vector<TriangleWork>& works,
           own.push_back({work.ancestor, line.polygon, end->point});
           continue;
         }
-        across->exit.detected = end->detected;
-        *end = across->exit;
-        std::move(across->way.begin(), across->way.end(), std::back_inserter(work.continued));
+        lead_across(std::move(*across), *end, work);
       }
     settled.insert(settled.end(), own.begin(), own.end());
   }

@@ -60,6 +60,10 @@ class Neighbourhood {
   std::vector<std::unique_ptr<Neighbour>> neighbours_;
 };
 
+/// Ends a line on the edge that the way to a node across it passes, and hands what goes on from there to
+/// continue_lines.
+void lead_across(NodeAcross&& across, LineEnd& end, TriangleWork& work);
+
 /// Leads ends that are still free, within δn, to those on the other side of an edge, of which the first stays
 /// where it is. Within a triangle merge_free_endpoints does the same. Runs over the works one after the
 /// other. @pre works are sorted by ancestor

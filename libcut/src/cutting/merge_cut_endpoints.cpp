@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <optional>
 #include <tuple>
@@ -63,8 +62,7 @@ class EndpointMerger {
     const Target here = nearest_node(end.point, polygon);
     auto across = across_.nearest_node(end.point, other, polygon, here.recent, here.distance);
     if (across) {
-      end = across->exit;
-      std::move(across->way.begin(), across->way.end(), std::back_inserter(work_.continued));
+      lead_across(std::move(*across), end, work_);
     } else if (here.distance < std::numeric_limits<double>::infinity()) {
       end = here.end;
     } else {
@@ -187,7 +185,7 @@ void merge_free_endpoints(TriangleWork& work, const std::vector<LatticePoint>& b
       return std::nullopt;
     return clusters.value(nearest);
   };
-  // The line itself has led its other end there and would vanish.
+  // The nearest but `other`, where the line's other end is: both ends there would leave nothing of the line.
   const auto nearest_but = [&](const Clusters& clusters, LatticePoint p, LatticePoint other) {
     LatticePoint best = other;
     double best_squared = std::numeric_limits<double>::infinity();

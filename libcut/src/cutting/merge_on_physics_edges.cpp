@@ -131,6 +131,7 @@ void merge_on_physics_edges(HybridMesh& mesh, std::vector<TriangleWork>& works, 
   }
   executor.for_each(edges.size(), [&](std::size_t i) { settle(mesh, edges[i], context); });
   std::erase_if(edges, [](const EdgePoints& e) { return e.new_nodes.empty(); });
+  // States are numbered as they are made, so these are made one after the other.
   for (const EdgePoints& e : edges) edge_state_for_writing(mesh, e.points[0].edge);
   executor.for_each(edges.size(), [&](std::size_t i) {
     EdgeState& state = edge_state_for_writing(mesh, edges[i].points[0].edge);

@@ -1,6 +1,6 @@
 /// @file
 /// Memory for the many short lists that a step needs on one triangle: taken from the stack, and from the heap
-/// only when that is not enough. Asking the heap for each list took a third of the time of a cut.
+/// only when that is not enough. Asking the heap for each list took a good part of the time of a cut.
 #pragma once
 #include <array>
 #include <cstddef>
