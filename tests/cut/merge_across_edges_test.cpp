@@ -100,8 +100,15 @@ TEST_CASE("a cut meets its end, wherever a border or a node lies") {
   }
 }
 
-TEST_CASE("two slits of one cut meet, wherever a border lies") {
-  CHECK(broken_cuts({0.2, 0.1, 0.001}, near_edge, true) == 0);
+TEST_CASE("two slits of one cut meet, whatever attracts one of their ends") {
+  const auto far_edge = [](Random&) { return halves(3, 0); };
+  for (const double edge_distance : {0.001, 0.01, 0.05}) {
+    const cut::MergeDistances distances{0.2, 0.1, edge_distance};
+    CAPTURE(edge_distance);
+    CHECK(broken_cuts(distances, near_edge, true) == 0);
+    CHECK(broken_cuts(distances, near_node, true) == 0);
+    CHECK(broken_cuts(distances, far_edge, true) == 0);
+  }
 }
 
 /// Ends of two slits on both sides of an edge, the one that comes from the left at (-left, 0).

@@ -17,6 +17,7 @@
 #include "cutting/detect_cutting_lines.hpp"
 #include "cutting/detect_disjoint_polygons.hpp"
 #include "cutting/edge_state.hpp"
+#include "cutting/meet_ends.hpp"
 #include "cutting/merge_across_edges.hpp"
 #include "cutting/merge_cut_endpoints.hpp"
 #include "cutting/merge_on_physics_edges.hpp"
@@ -166,7 +167,7 @@ Result<Changes> Cutter::cut(HybridMesh& mesh, const TriangleMesh& cutter) {
   memory_->previous_cut = context.this_cut;
 
   executor.for_each(works.size(), [&](std::size_t i) { merge_cut_endpoints(mesh, works[i], context); });
-  meet_across_edges(mesh, works, context);
+  meet_ends(mesh, works, context);
   continue_lines(mesh, works, context);
   ClusterCentres next_centres;
   merge_on_physics_edges(mesh, works, context, executor, next_centres);

@@ -58,6 +58,7 @@ struct Neighbourhood::Neighbour {
 /// Unfolds triangle after triangle, away from the end at `p`, as far as δc.
 class Neighbourhood::Walk {
  public:
+  /// Looks for nodes.
   Walk(Neighbourhood& neighbourhood, LatticePoint p, LatticePoint other, bool recent, double distance)
       : neighbourhood_(neighbourhood),
         mesh_(neighbourhood.mesh_),
@@ -65,8 +66,18 @@ class Neighbourhood::Walk {
         other_(other),
         best_recent_(recent),
         best_distance_(distance) {}
+  /// Looks for ends of this cut.
+  Walk(Neighbourhood& neighbourhood, LatticePoint p, LatticePoint other, bool tip,
+       std::span<const SeenEnd> ends)
+      : neighbourhood_(neighbourhood),
+        mesh_(neighbourhood.mesh_),
+        p_(p),
+        other_(other),
+        for_ends_(true),
+        tip_(tip),
+        ends_(ends) {}
 
-  std::optional<NodeAcross> run(std::uint32_t polygon) {
+  std::optional<TargetAcross> run(std::uint32_t polygon) {
     const TriangleWork& work = neighbourhood_.work_;
     const PlaneTriangle corners = lattice::laid_out(work.metric);
     from_ = in_plane(corners, p_);
@@ -154,29 +165,53 @@ class Neighbourhood::Walk {
                                    std::min(so_far.node, work.distances.node),
                                    std::min(so_far.edge, work.distances.edge)};
     const std::uint32_t polygon = gates_.back().outer_polygon;
-    for (const std::uint32_t n : neighbour.nodes.of(polygon)) {
-      const ArrangementNode& node = work.before.nodes[n];
-      const LineEnd target{node.point, LineEnd::On::node, n, node.point};
-      if (!on_side(node.point, side))
-        consider(work, corners, target, neighbourhood_.context_.recent(node.stamp), distances);
+    if (for_ends_) {
+      for (const SeenEnd& seen : std::ranges::equal_range(ends_, work.ancestor, {}, &SeenEnd::ancestor))
+        if (seen.settled && seen.polygon == polygon &&
+            (seen.target.on == LineEnd::On::nothing || (tip_ && seen.tip)))
+          consider(work, corners, seen.detected, seen.target, false, distances);
+    } else {
+      for (const std::uint32_t n : neighbour.nodes.of(polygon)) {
+        const ArrangementNode& node = work.before.nodes[n];
+        if (!on_side(node.point, side))
+          consider(work, corners, node.point, {node.point, LineEnd::On::node, n, node.point},
+                   neighbourhood_.context_.recent(node.stamp), distances);
+      }
     }
-    for (const FreeEnd& free :
-         std::ranges::equal_range(neighbourhood_.free_ends_, work.ancestor, {}, &FreeEnd::ancestor))
-      if (free.polygon == polygon)
-        consider(work, corners, {free.point, LineEnd::On::nothing, 0, free.point}, false, distances);
     leave(work, corners, polygon, side, distances);
   }
 
-  void consider(const TriangleWork& work, const PlaneTriangle& corners, const LineEnd& target, bool recent,
-                const MergeDistances& distances) {
-    const PlanePoint to = in_plane(corners, target.point);
-    const double distance = std::sqrt(dot(to - from_, to - from_));
+  /// @param seen_at where the target attracts from, which may be another place than the target itself
+  void consider(const TriangleWork& work, const PlaneTriangle& corners, LatticePoint seen_at, LineEnd target,
+                bool recent, const MergeDistances& distances) {
+    const auto away = [&](LatticePoint point) {
+      const PlanePoint d = in_plane(corners, point) - from_;
+      return std::sqrt(dot(d, d));
+    };
+    const double distance = away(seen_at);
     if (distance > (recent ? distances.cut : distances.node)) return;
+    if (seen_at != target.point && away(target.point) > distances.cut) return;
     if (best_recent_ > recent || (best_recent_ == recent && best_distance_ <= distance)) return;
 
+    // A target on the side of a gate is reached from the triangle before it.
+    const PlanePoint to = in_plane(corners, target.point);
+    const TriangleWork* last = &work;
+    std::size_t passed = gates_.size();
+    for (; passed > 0; --passed) {
+      const Gate& gate = gates_[passed - 1];
+      const std::size_t side = mesh_.ancestors.local_edge(last->ancestor, gate.edge);
+      if (!on_side(target.point, side)) break;
+      const std::int32_t t = along(last->ancestor, side, target.point);
+      if (t < gate.first || gate.last < t) return;
+      last = gate.inner;
+      const bool passes = target.passes;
+      target = end_on_side(on_edge(*last, gate.edge, t));
+      target.passes = passes;
+    }
     // Where the straight way passes each gate.
     std::vector<std::int32_t> passes;
-    for (const Gate& gate : gates_) {
+    for (std::size_t k = 0; k < passed; ++k) {
+      const Gate& gate = gates_[k];
       const double at_first = cross(to - from_, gate.first_at - from_);
       const double at_last = cross(to - from_, gate.last_at - from_);
       if ((at_first > 0 && at_last > 0) || (at_first < 0 && at_last < 0) || at_first == at_last) return;
@@ -185,28 +220,23 @@ class Neighbourhood::Walk {
                        static_cast<std::int32_t>(std::floor(s * (gate.last - gate.first) + 0.5)));
     }
     // A line that comes from the edge itself would run along it: it goes from where it came instead.
-    const Gate& gate = gates_.front();
-    if (gates_.size() == 1) {
+    if (passed == 1) {
+      const Gate& gate = gates_.front();
       const std::size_t side = mesh_.ancestors.local_edge(gate.inner->ancestor, gate.edge);
       const std::int32_t t = along(gate.inner->ancestor, side, other_);
       if (on_side(other_, side) && gate.first <= t && t <= gate.last) passes.front() = t;
     }
 
-    NodeAcross found{recent, distance, {}, {}};
+    TargetAcross found{recent, distance, target, {}};
     LatticePoint inner = p_;
-    for (std::size_t k = 0; k < gates_.size(); ++k) {
+    for (std::size_t k = 0; k < passed; ++k) {
       const LatticePoint exit = on_edge(*gates_[k].inner, gates_[k].edge, passes[k]);
       if (hidden(*gates_[k].inner, inner, exit)) return;
-      if (k == 0) {
-        found.exit = end_on_side(exit);
-      } else {
-        found.way.back().line.b = end_on_side(exit);
-      }
+      (k == 0 ? found.exit : found.way.back().line.b) = end_on_side(exit);
       inner = on_edge(*gates_[k].outer, gates_[k].edge, passes[k]);
-      found.way.push_back({gates_[k].outer->ancestor, {gates_[k].outer_polygon, end_on_side(inner), {}}});
+      found.way.push_back({gates_[k].outer->ancestor, {gates_[k].outer_polygon, end_on_side(inner), target}});
     }
-    if (hidden(work, inner, target.point)) return;
-    found.way.back().line.b = target;
+    if (hidden(*last, inner, target.point)) return;
     best_ = std::move(found);
     best_recent_ = recent;
     best_distance_ = distance;
@@ -230,16 +260,19 @@ class Neighbourhood::Walk {
   const HybridMesh& mesh_;
   LatticePoint p_;
   LatticePoint other_;
-  bool best_recent_;
-  double best_distance_;
+  bool for_ends_ = false;
+  bool tip_ = false;
+  std::span<const SeenEnd> ends_;
+  bool best_recent_ = false;
+  double best_distance_ = std::numeric_limits<double>::infinity();
   PlanePoint from_{};
   std::vector<Gate> gates_;
-  std::optional<NodeAcross> best_;
+  std::optional<TargetAcross> best_;
 };
 
-Neighbourhood::Neighbourhood(const HybridMesh& mesh, const TriangleWork& work, const CutContext& context,
-                             std::span<const FreeEnd> free_ends)
-    : mesh_(mesh), work_(work), context_(context), free_ends_(free_ends) {}
+Neighbourhood::Neighbourhood(const HybridMesh& mesh, const TriangleWork& work, const CutContext& context)
+    : mesh_(mesh), work_(work), context_(context) {}
+Neighbourhood::Neighbourhood(Neighbourhood&&) noexcept = default;
 Neighbourhood::~Neighbourhood() = default;
 
 Neighbourhood::Neighbour& Neighbourhood::neighbour(AncestorId ancestor) {
@@ -251,53 +284,22 @@ Neighbourhood::Neighbour& Neighbourhood::neighbour(AncestorId ancestor) {
   return *neighbours_.back();
 }
 
-std::optional<NodeAcross> Neighbourhood::nearest_node(LatticePoint p, LatticePoint other,
-                                                      std::uint32_t polygon, bool recent, double distance) {
+std::optional<TargetAcross> Neighbourhood::nearest_node(LatticePoint p, LatticePoint other,
+                                                        std::uint32_t polygon, bool recent, double distance) {
   return Walk(*this, p, other, recent, distance).run(polygon);
 }
 
-namespace {
-
-/// To the nearest other free end of the same polygon.
-double distance_to_nearest_end(const TriangleWork& work, const LineEnd& end, std::uint32_t polygon) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const CuttingLine& line : work.lines)
-    for (const LineEnd* other : {&line.a, &line.b})
-      if (other != &end && line.polygon == polygon && other->on == LineEnd::On::nothing &&
-          other->point != end.point)
-        nearest = std::min(nearest, work.metric.length(other->point, end.point));
-  return nearest;
+std::optional<TargetAcross> Neighbourhood::nearest_end(LatticePoint p, LatticePoint other,
+                                                       std::uint32_t polygon, bool tip,
+                                                       std::span<const SeenEnd> ends) {
+  return Walk(*this, p, other, tip, ends).run(polygon);
 }
 
-}  // namespace
-
-void lead_across(NodeAcross&& across, LineEnd& end, TriangleWork& work) {
+void lead_across(TargetAcross&& across, LineEnd& end, TriangleWork& work) {
   across.exit.detected = end.detected;
+  across.exit.inside = end.inside;
   end = across.exit;
   std::move(across.way.begin(), across.way.end(), std::back_inserter(work.continued));
-}
-
-void meet_across_edges(const HybridMesh& mesh, std::vector<TriangleWork>& works, const CutContext& context) {
-  std::vector<FreeEnd> settled;
-  std::vector<FreeEnd> own;
-  for (TriangleWork& work : works) {
-    Neighbourhood seen(mesh, work, context, settled);
-    own.clear();
-    for (CuttingLine& line : work.lines)
-      for (LineEnd* end : {&line.a, &line.b}) {
-        if (end->on != LineEnd::On::nothing) continue;
-        const LatticePoint other = end == &line.a ? line.b.detected : line.a.detected;
-        auto across = settled.empty() ? std::nullopt
-                                      : seen.nearest_node(end->point, other, line.polygon, false,
-                                                          distance_to_nearest_end(work, *end, line.polygon));
-        if (!across) {
-          own.push_back({work.ancestor, line.polygon, end->point});
-          continue;
-        }
-        lead_across(std::move(*across), *end, work);
-      }
-    settled.insert(settled.end(), own.begin(), own.end());
-  }
 }
 
 void continue_lines(const HybridMesh& mesh, std::vector<TriangleWork>& works, const CutContext& context) {

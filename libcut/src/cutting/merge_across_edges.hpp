@@ -15,28 +15,30 @@
 
 namespace cut {
 
-/// A node on the other side of an edge, and the way there.
-struct NodeAcross {
-  bool recent;                     ///< part of the previous cut
+/// What attracts an end from the other side of an edge, and the way there.
+struct TargetAcross {
+  bool recent;                     ///< a node of the previous cut
   double distance;                 ///< straight, in the unfolded plane
-  LineEnd exit;                    ///< where the way leaves the triangle of the end
-  std::vector<ContinuedLine> way;  ///< one for each triangle that is entered; the last one ends at the node
+  LineEnd exit;                    ///< where the way leaves the triangle of the end, or ends on its side
+  std::vector<ContinuedLine> way;  ///< one for each triangle that is entered; the last one ends at the target
 };
 
-/// An end of this cut that no node has attracted.
-struct FreeEnd {
+/// An end of this cut that was detected inside of its triangle, for other ends of the same cut.
+struct SeenEnd {
   AncestorId ancestor;
   std::uint32_t polygon;
-  LatticePoint point;
+  LatticePoint detected;
+  LineEnd target;        ///< where it goes; while it is free, where it was detected
+  bool tip;              ///< no other line of this cut ends there
+  bool settled = false;  ///< only then others see it
 };
 
 /// What a triangle's line ends see in its neighbours. Arrangements of neighbours are set up when they are
 /// first needed.
 class Neighbourhood {
  public:
-  /// @param free_ends  what is seen beside nodes; by ancestor
-  Neighbourhood(const HybridMesh& mesh, const TriangleWork& work, const CutContext& context,
-                std::span<const FreeEnd> free_ends = {});
+  Neighbourhood(const HybridMesh& mesh, const TriangleWork& work, const CutContext& context);
+  Neighbourhood(Neighbourhood&&) noexcept;
   ~Neighbourhood();
 
   /// The node across edges that is better than the best one of the triangle itself: a recent one within δc,
@@ -44,9 +46,16 @@ class Neighbourhood {
   /// @param p inside of the triangle, on no edge
   /// @param other the line's other end
   /// @param recent,distance of the best node of the triangle itself; infinite distance when there is none
-  /// Free ends are seen as nodes that are not recent.
-  [[nodiscard]] std::optional<NodeAcross> nearest_node(LatticePoint p, LatticePoint other,
-                                                       std::uint32_t polygon, bool recent, double distance);
+  [[nodiscard]] std::optional<TargetAcross> nearest_node(LatticePoint p, LatticePoint other,
+                                                         std::uint32_t polygon, bool recent, double distance);
+
+  /// The settled end across edges that was detected nearest to p, within δn, and goes to a place within δc.
+  /// The way leads to that place.
+  /// @param ends by ancestor
+  /// @param tip  p is a tip, which sees where other tips go; else only free ends are seen
+  [[nodiscard]] std::optional<TargetAcross> nearest_end(LatticePoint p, LatticePoint other,
+                                                        std::uint32_t polygon, bool tip,
+                                                        std::span<const SeenEnd> ends);
 
  private:
   struct Neighbour;
@@ -56,18 +65,12 @@ class Neighbourhood {
   const HybridMesh& mesh_;
   const TriangleWork& work_;
   const CutContext& context_;
-  std::span<const FreeEnd> free_ends_;
   std::vector<std::unique_ptr<Neighbour>> neighbours_;
 };
 
-/// Ends a line on the edge that the way to a node across it passes, and hands what goes on from there to
-/// continue_lines.
-void lead_across(NodeAcross&& across, LineEnd& end, TriangleWork& work);
-
-/// Leads ends that are still free, within δn, to those on the other side of an edge, of which the first stays
-/// where it is. Within a triangle merge_free_endpoints does the same. Runs over the works one after the
-/// other. @pre works are sorted by ancestor
-void meet_across_edges(const HybridMesh& mesh, std::vector<TriangleWork>& works, const CutContext& context);
+/// Ends a line where the way to a target across an edge leaves its triangle, and hands what goes on from
+/// there to continue_lines.
+void lead_across(TargetAcross&& across, LineEnd& end, TriangleWork& work);
 
 /// Gives the lines that go on in a neighbour to that neighbour's work, which is made if there is none.
 void continue_lines(const HybridMesh& mesh, std::vector<TriangleWork>& works, const CutContext& context);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -28,12 +29,12 @@ class EndpointMerger {
         across_(mesh, work, context) {}
 
   void merge(CuttingLine& line) {
-    const LatticePoint a = line.a.point;
-    const LatticePoint b = line.b.point;
-    decide(line.a, b, line.polygon);
-    decide(line.b, a, line.polygon);
-    line.a.detected = a;
-    line.b.detected = b;
+    const LineEnd a = line.a;
+    const LineEnd b = line.b;
+    decide(line.a, b.point, line.polygon);
+    decide(line.b, a.point, line.polygon);
+    remember(line.a, a);
+    remember(line.b, b);
   }
 
  private:
@@ -43,6 +44,11 @@ class EndpointMerger {
     bool recent = false;
     double distance = std::numeric_limits<double>::infinity();
   };
+
+  static void remember(LineEnd& end, const LineEnd& detected) {
+    end.detected = detected.point;
+    end.inside = detected.on == LineEnd::On::nothing && edge_of(detected.point) == 3;
+  }
 
   /// @param other the line's other end, as it was detected
   void decide(LineEnd& end, LatticePoint other, std::uint32_t polygon) {
@@ -186,21 +192,30 @@ void merge_free_endpoints(TriangleWork& work, const std::vector<LatticePoint>& b
     return clusters.value(nearest);
   };
   // The nearest but `other`, where the line's other end is: both ends there would leave nothing of the line.
-  const auto nearest_but = [&](const Clusters& clusters, LatticePoint p, LatticePoint other) {
+  // Ends within δn lead to where they go themselves.
+  const auto nearest_but = [&](const Clusters& clusters, auto ends, LatticePoint p, LatticePoint other) {
     LatticePoint best = other;
     double best_squared = std::numeric_limits<double>::infinity();
-    clusters.for_each_within(flat(p), [&](spatial::ClusterId c, double squared) {
-      const LatticePoint at = clusters.value(c);
+    const auto consider = [&](double squared, LatticePoint at) {
       if (at == other || std::tie(squared, at) >= std::tie(best_squared, best) ||
           !visible(p, at, work.before.edges, point_of))
         return;
       best = at;
       best_squared = squared;
-    });
+    };
+    clusters.for_each_within(
+        flat(p), [&](spatial::ClusterId c, double squared) { consider(squared, clusters.value(c)); });
+    for (const auto& [polygon, end] : ends) {
+      const double distance = work.metric.length(p, end.point);
+      if (end.point == p || distance > work.distances.node) continue;
+      const auto at = nearest_visible(clusters, end.point);
+      if (at && work.metric.length(p, *at) <= work.distances.cut) consider(distance * distance, *at);
+    }
     return best;
   };
   for (std::size_t i = 0; i < open.size();) {
     const std::uint32_t polygon = open[i].first;
+    const std::size_t first = i;
     Clusters clusters(work.distances.node);
     for (const LatticePoint p : boundary_points) clusters.insert_or_merge(flat(p), p);
     for (const CuttingLine& line : work.lines)
@@ -213,6 +228,7 @@ void merge_free_endpoints(TriangleWork& work, const std::vector<LatticePoint>& b
       const LatticePoint p = open[i].second.point;
       if (!nearest_visible(clusters, p)) clusters.insert_or_merge(flat(p), p);
     }
+    const std::span ends = std::span(open).subspan(first, i - first);
     // Now that all new nodes are known, each end goes to the nearest: the same cut, made again, finds the
     // same nodes.
     for (CuttingLine& line : work.lines)
@@ -221,7 +237,7 @@ void merge_free_endpoints(TriangleWork& work, const std::vector<LatticePoint>& b
         if (is_open(*end)) {
           const LatticePoint other = end == &line.a ? line.b.point : line.a.point;
           const LatticePoint nearest = nearest_visible(clusters, end->point).value_or(end->point);
-          end->point = nearest != other ? nearest : nearest_but(clusters, end->point, other);
+          end->point = nearest != other ? nearest : nearest_but(clusters, ends, end->point, other);
         } else if (end->on == LineEnd::On::node && end->detected != end->point &&
                    !context.recent(work.before.nodes[end->index].stamp)) {
           const auto nearer = nearest_visible(clusters, end->detected);

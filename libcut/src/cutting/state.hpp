@@ -3,6 +3,7 @@
 ///
 ///   detect_cutting_lines    works with lines, line ends where the cutter meets the triangle
 ///   merge_cut_endpoints     line ends become nodes, points on physics edges, points on cuts, or stay free
+///   meet_ends               ends that were detected near each other go to the same place
 ///   merge_on_physics_edges  points on physics edges become boundary nodes, the same for both sides
 ///   arrange_triangle        lines become edges of a planar graph: merge_on_cut_edges,
 ///                           merge_existing_nodes, lattice::insert_edges (§4.4), cut_along_segments,
@@ -38,6 +39,7 @@ struct LineEnd {
   std::uint32_t index = 0;
   LatticePoint detected{};  ///< where it was before it was merged; set by merge_cut_endpoints
   bool passes = false;      ///< the line is led on across the edge here; nodes attract it from δn only
+  bool inside = false;      ///< was detected inside of its polygon, on no edge; set by merge_cut_endpoints
 
   auto operator<=>(const LineEnd&) const = default;
 };
