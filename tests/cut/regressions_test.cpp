@@ -137,6 +137,20 @@ TEST_CASE("a point of the cutter that no triangle names does not matter, whereve
   }
 }
 
+TEST_CASE("many slits in one place do not take the square of their number") {
+  constexpr int slits = 30000;
+  std::vector<TriangleMesh> ribbons;
+  for (int i = 0; i < slits; ++i) {
+    // Around the middle of the common edge, which attracts many of their ends.
+    const Eigen::Vector3d from(5 + 0.25 * std::sin(7 * i), 5 + 0.25 * std::sin(11 * i), 0);
+    ribbons.push_back(scenes::ribbon({from, from + Eigen::Vector3d(0.01, 0.003 * (i % 5), 0)}, {0, 0, 2}));
+  }
+  HybridMesh mesh = *HybridMesh::build(scenes::grid(1, 1, 10));
+  Cutter cutter(default_merge_distances(mesh));
+  REQUIRE(cutter.cut(mesh, scenes::joined(ribbons)).has_value());
+  CHECK(validate(mesh).empty());
+}
+
 TEST_CASE("a long zigzag in one triangle takes neither the stack nor the square of its length") {
   scenes::Path path;
   constexpr int turns = 90000;

@@ -1,14 +1,16 @@
 #include "cutting/meet_ends.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <numeric>
-#include <tuple>
 #include <utility>
 
 #include "cutting/merge_across_edges.hpp"
+#include "lattice/components.hpp"
 #include "lattice/plane.hpp"
+#include "spatial/point_cluster_dictionary.hpp"
 
 namespace cut {
 namespace {
@@ -20,6 +22,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// What a SeenEnd is an end of.
 struct Whose {
   std::size_t work;
+  std::uint32_t line;  ///< counted over all works
   LineEnd* end;
   LineEnd* other;  ///< of the same line
 };
@@ -27,31 +30,66 @@ struct Whose {
 struct Ends {
   std::vector<SeenEnd> seen;  ///< by ancestor
   std::vector<Whose> whose;
+  std::size_t lines = 0;
 };
 
 /// All ends that were detected inside of their triangles.
 Ends ends_inside(std::vector<TriangleWork>& works) {
   Ends ends;
-  std::vector<std::tuple<std::uint32_t, LatticePoint>> places;
-  for (std::size_t w = 0; w < works.size(); ++w) {
-    const std::size_t first = ends.seen.size();
-    for (CuttingLine& line : works[w].lines)
+  for (std::size_t w = 0; w < works.size(); ++w)
+    for (CuttingLine& line : works[w].lines) {
       for (LineEnd* end : {&line.a, &line.b})
         if (end->inside) {
-          ends.seen.push_back({works[w].ancestor, line.polygon, end->detected, *end, false});
-          ends.whose.push_back({w, end, end == &line.a ? &line.b : &line.a});
+          ends.seen.push_back({works[w].ancestor, line.polygon, end->detected, *end});
+          ends.whose.push_back(
+              {w, static_cast<std::uint32_t>(ends.lines), end, end == &line.a ? &line.b : &line.a});
         }
-    places.clear();
-    for (std::size_t i = first; i < ends.seen.size(); ++i)
-      places.emplace_back(ends.seen[i].polygon, ends.seen[i].detected);
-    std::sort(places.begin(), places.end());
-    for (std::size_t i = first; i < ends.seen.size(); ++i) {
-      const auto same =
-          std::ranges::equal_range(places, std::tuple(ends.seen[i].polygon, ends.seen[i].detected));
-      ends.seen[i].tip = same.size() == 1;
+      ++ends.lines;
     }
-  }
   return ends;
+}
+
+/// Where lines of neighbouring triangles have the same end.
+struct Place {
+  enum class In : std::uint8_t { triangle, edge, node };
+  In in;
+  std::uint32_t index;
+  LatticePoint point;
+  auto operator<=>(const Place&) const = default;
+};
+
+Place place(const HybridMesh& mesh, AncestorId t, LatticePoint p) {
+  const Ancestor& ancestor = mesh.ancestors.triangles[t.index()];
+  if (const std::size_t corner = corner_of(p); corner < 3)
+    return {Place::In::node, static_cast<std::uint32_t>(ancestor.nodes[corner].index()), {}};
+  const std::size_t side = edge_of(p);
+  if (side == 3) return {Place::In::triangle, static_cast<std::uint32_t>(t.index()), p};
+  const std::int32_t at = p[next_corner(side)];
+  return {Place::In::edge,
+          static_cast<std::uint32_t>(ancestor.edges[side].index()),
+          {mesh.ancestors.reversed(t, side) ? lattice_size - at : at, 0}};
+}
+
+/// Which ends are tips, and which of them are ends of the same chain of lines.
+void find_tips(const HybridMesh& mesh, const std::vector<TriangleWork>& works, Ends& ends) {
+  std::vector<std::pair<Place, std::uint32_t>> places;
+  places.reserve(2 * ends.lines);
+  std::uint32_t number = 0;
+  for (const TriangleWork& work : works)
+    for (const CuttingLine& line : work.lines) {
+      places.emplace_back(place(mesh, work.ancestor, line.a.detected), number);
+      places.emplace_back(place(mesh, work.ancestor, line.b.detected), number++);
+    }
+  std::sort(places.begin(), places.end());
+  lattice::Components chains(ends.lines);
+  for (std::size_t i = 1; i < places.size(); ++i)
+    if (places[i].first == places[i - 1].first) chains.join(places[i].second, places[i - 1].second);
+  for (std::size_t i = 0; i < ends.seen.size(); ++i) {
+    SeenEnd& end = ends.seen[i];
+    const Place here = place(mesh, end.ancestor, end.detected);
+    end.tip = std::ranges::equal_range(places, here, {}, &std::pair<Place, std::uint32_t>::first).size() == 1;
+    end.chain = chains.root(ends.whose[i].line);
+  }
 }
 
 /// Less: stays rather than follows. A line that is led to a node across an edge is as good as at it.
@@ -66,10 +104,12 @@ class Meeting {
       : mesh_(mesh), works_(works), context_(context), ends_(ends_inside(works)) {}
 
   void run() {
+    if (std::ranges::any_of(ends_.seen, [](const SeenEnd& end) { return end.target.on != On::nothing; }))
+      find_tips(mesh_, works_, ends_);
     std::vector<std::size_t> order(ends_.seen.size());
     std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-      return rank(ends_.seen[a].target) < rank(ends_.seen[b].target);
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return std::pair(rank(ends_.seen[a].target), a) < std::pair(rank(ends_.seen[b].target), b);
     });
     bool alone = true;
     for (const std::size_t i : order) {
@@ -77,12 +117,22 @@ class Meeting {
       if (!seen.tip && seen.target.on != On::nothing) continue;
       if (!alone && !seen.target.passes) follow(i);
       seen.target = *ends_.whose[i].end;
-      seen.settled = true;
+      settle(i);
       alone = false;
     }
   }
 
  private:
+  /// Shows an end to others. Of many in one place a few will do, and make no square of their number.
+  void settle(std::size_t i) {
+    const SeenEnd& seen = ends_.seen[i];
+    const TriangleWork& work = works_[ends_.whose[i].work];
+    const lattice::PlanePoint at = in_plane(lattice::laid_out(work.metric), seen.detected);
+    Shown& shown =
+        shown_.try_emplace({ends_.whose[i].work, seen.polygon}, work.distances.node / 32).first->second;
+    if (shown.insert_or_merge({at.x, at.y}, true).inserted) settled_[seen.ancestor].push_back(seen);
+  }
+
   void follow(std::size_t i) {
     const SeenEnd& seen = ends_.seen[i];
     const Whose& whose = ends_.whose[i];
@@ -90,11 +140,10 @@ class Meeting {
     const Target own = nearest_target(i);
     Neighbourhood& neighbourhood =
         neighbourhoods_.try_emplace(whose.work, mesh_, work, context_).first->second;
-    auto across =
-        neighbourhood.nearest_end(seen.detected, whose.other->detected, seen.polygon, seen.tip, ends_.seen);
+    auto across = neighbourhood.nearest_end(seen, whose.other->detected, settled_);
     // Nothing would be left of the line.
     if (across && across->way.empty() && across->exit.point == whose.other->point) across.reset();
-    if (across && across->distance < std::min(own.distance, distance_to_free_end(i))) {
+    if (across && across->distance < own.distance && across->distance < distance_to_free_end(i)) {
       lead_across(std::move(*across), *whose.end, work);
     } else if (own.distance < infinity) {
       *whose.end = own.end;
@@ -113,9 +162,10 @@ class Meeting {
     const SeenEnd& seen = ends_.seen[i];
     const TriangleWork& work = works_[ends_.whose[i].work];
     Target best;
-    if (!seen.tip) return best;
-    for (const SeenEnd& other : of_work(i)) {
-      if (!other.settled || !other.tip || other.target.on == On::nothing || other.polygon != seen.polygon ||
+    const auto ends = settled_.find(seen.ancestor);
+    if (!seen.tip || ends == settled_.end()) return best;
+    for (const SeenEnd& other : ends->second) {
+      if (other.target.on == On::nothing || !sees(seen, other) || other.polygon != seen.polygon ||
           other.target.point == ends_.whose[i].other->point)
         continue;
       const double distance = work.metric.length(seen.detected, other.detected);
@@ -151,6 +201,9 @@ class Meeting {
   const CutContext& context_;
   Ends ends_;
   std::map<std::size_t, Neighbourhood> neighbourhoods_;  ///< of works
+  using Shown = spatial::PointClusterDictionary<double, 2, bool>;
+  std::map<std::pair<std::size_t, std::uint32_t>, Shown> shown_;  ///< of works and their polygons
+  SettledEnds settled_;
 };
 
 }  // namespace

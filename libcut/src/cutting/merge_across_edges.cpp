@@ -67,15 +67,13 @@ class Neighbourhood::Walk {
         best_recent_(recent),
         best_distance_(distance) {}
   /// Looks for ends of this cut.
-  Walk(Neighbourhood& neighbourhood, LatticePoint p, LatticePoint other, bool tip,
-       std::span<const SeenEnd> ends)
+  Walk(Neighbourhood& neighbourhood, const SeenEnd& from, LatticePoint other, const SettledEnds& ends)
       : neighbourhood_(neighbourhood),
         mesh_(neighbourhood.mesh_),
-        p_(p),
+        p_(from.detected),
         other_(other),
-        for_ends_(true),
-        tip_(tip),
-        ends_(ends) {}
+        looks_from_(&from),
+        ends_(&ends) {}
 
   std::optional<TargetAcross> run(std::uint32_t polygon) {
     const TriangleWork& work = neighbourhood_.work_;
@@ -165,11 +163,11 @@ class Neighbourhood::Walk {
                                    std::min(so_far.node, work.distances.node),
                                    std::min(so_far.edge, work.distances.edge)};
     const std::uint32_t polygon = gates_.back().outer_polygon;
-    if (for_ends_) {
-      for (const SeenEnd& seen : std::ranges::equal_range(ends_, work.ancestor, {}, &SeenEnd::ancestor))
-        if (seen.settled && seen.polygon == polygon &&
-            (seen.target.on == LineEnd::On::nothing || (tip_ && seen.tip)))
-          consider(work, corners, seen.detected, seen.target, false, distances);
+    if (looks_from_ != nullptr) {
+      if (const auto found = ends_->find(work.ancestor); found != ends_->end())
+        for (const SeenEnd& seen : found->second)
+          if (seen.polygon == polygon && sees(*looks_from_, seen))
+            consider(work, corners, seen.detected, seen.target, false, distances);
     } else {
       for (const std::uint32_t n : neighbour.nodes.of(polygon)) {
         const ArrangementNode& node = work.before.nodes[n];
@@ -260,9 +258,8 @@ class Neighbourhood::Walk {
   const HybridMesh& mesh_;
   LatticePoint p_;
   LatticePoint other_;
-  bool for_ends_ = false;
-  bool tip_ = false;
-  std::span<const SeenEnd> ends_;
+  const SeenEnd* looks_from_ = nullptr;
+  const SettledEnds* ends_ = nullptr;
   bool best_recent_ = false;
   double best_distance_ = std::numeric_limits<double>::infinity();
   PlanePoint from_{};
@@ -289,10 +286,9 @@ std::optional<TargetAcross> Neighbourhood::nearest_node(LatticePoint p, LatticeP
   return Walk(*this, p, other, recent, distance).run(polygon);
 }
 
-std::optional<TargetAcross> Neighbourhood::nearest_end(LatticePoint p, LatticePoint other,
-                                                       std::uint32_t polygon, bool tip,
-                                                       std::span<const SeenEnd> ends) {
-  return Walk(*this, p, other, tip, ends).run(polygon);
+std::optional<TargetAcross> Neighbourhood::nearest_end(const SeenEnd& from, LatticePoint other,
+                                                       const SettledEnds& ends) {
+  return Walk(*this, from, other, ends).run(from.polygon);
 }
 
 void lead_across(TargetAcross&& across, LineEnd& end, TriangleWork& work) {

@@ -4,9 +4,9 @@
 /// on the edge where the line leaves the triangle, and the lines that lead it on to a node of a neighbour.
 #pragma once
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -28,10 +28,19 @@ struct SeenEnd {
   AncestorId ancestor;
   std::uint32_t polygon;
   LatticePoint detected;
-  LineEnd target;        ///< where it goes; while it is free, where it was detected
-  bool tip;              ///< no other line of this cut ends there
-  bool settled = false;  ///< only then others see it
+  LineEnd target;           ///< where it goes; while it is free, where it was detected
+  bool tip = false;         ///< no other line of this cut ends there
+  std::uint32_t chain = 0;  ///< of a tip: the lines that lead to it
 };
+
+/// Those that others see.
+using SettledEnds = std::map<AncestorId, std::vector<SeenEnd>>;
+
+/// Free ends are seen by all; where a tip goes, by tips of other lines only: a blade that goes on in small
+/// steps would not come away from the end of its cut.
+inline bool sees(const SeenEnd& from, const SeenEnd& end) {
+  return end.target.on == LineEnd::On::nothing || (from.tip && end.tip && from.chain != end.chain);
+}
 
 /// What a triangle's line ends see in its neighbours. Arrangements of neighbours are set up when they are
 /// first needed.
@@ -49,13 +58,11 @@ class Neighbourhood {
   [[nodiscard]] std::optional<TargetAcross> nearest_node(LatticePoint p, LatticePoint other,
                                                          std::uint32_t polygon, bool recent, double distance);
 
-  /// The settled end across edges that was detected nearest to p, within δn, and goes to a place within δc.
-  /// The way leads to that place.
-  /// @param ends by ancestor
-  /// @param tip  p is a tip, which sees where other tips go; else only free ends are seen
-  [[nodiscard]] std::optional<TargetAcross> nearest_end(LatticePoint p, LatticePoint other,
-                                                        std::uint32_t polygon, bool tip,
-                                                        std::span<const SeenEnd> ends);
+  /// The end across edges that `from` sees and that was detected nearest to it, within δn, and goes to a
+  /// place within δc. The way leads to that place.
+  /// @param other where the other end of the line was detected
+  [[nodiscard]] std::optional<TargetAcross> nearest_end(const SeenEnd& from, LatticePoint other,
+                                                        const SettledEnds& ends);
 
  private:
   struct Neighbour;

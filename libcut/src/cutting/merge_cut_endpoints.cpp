@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <span>
 #include <tuple>
 #include <utility>
 
@@ -191,31 +190,41 @@ void merge_free_endpoints(TriangleWork& work, const std::vector<LatticePoint>& b
       return std::nullopt;
     return clusters.value(nearest);
   };
+  const auto ends_at = [&](std::size_t a, std::size_t b) {
+    return a < open.size() && open[a].first == open[b].first && open[a].second.point == open[b].second.point;
+  };
+  // Tips within δn of another end lead it to where they go themselves (§7, "additional cluster centers").
+  const auto reaching_tips = [&](const Clusters& clusters, const std::vector<LatticePoint>& tips) {
+    Clusters reach = clusters;
+    const double close = work.distances.node / 32;  // more centres would make a dense place slow
+    for (const LatticePoint tip : tips) {
+      const spatial::ClusterId own = clusters.find_nearest(flat(tip));
+      if (!own.valid() || !visible(tip, clusters.value(own), work.before.edges, point_of)) continue;
+      bool needed = true;
+      reach.for_each_within(flat(tip), [&](spatial::ClusterId c, double squared) {
+        if (c == own && squared <= close * close) needed = false;
+      });
+      if (needed) reach.add_center(own, flat(tip));
+    }
+    return reach;
+  };
   // The nearest but `other`, where the line's other end is: both ends there would leave nothing of the line.
-  // Ends within δn lead to where they go themselves.
-  const auto nearest_but = [&](const Clusters& clusters, auto ends, LatticePoint p, LatticePoint other) {
+  const auto nearest_but = [&](const Clusters& clusters, LatticePoint p, LatticePoint other) {
     LatticePoint best = other;
     double best_squared = std::numeric_limits<double>::infinity();
-    const auto consider = [&](double squared, LatticePoint at) {
+    clusters.for_each_within(flat(p), [&](spatial::ClusterId c, double squared) {
+      const LatticePoint at = clusters.value(c);
       if (at == other || std::tie(squared, at) >= std::tie(best_squared, best) ||
-          !visible(p, at, work.before.edges, point_of))
+          work.metric.length(p, at) > work.distances.cut || !visible(p, at, work.before.edges, point_of))
         return;
       best = at;
       best_squared = squared;
-    };
-    clusters.for_each_within(
-        flat(p), [&](spatial::ClusterId c, double squared) { consider(squared, clusters.value(c)); });
-    for (const auto& [polygon, end] : ends) {
-      const double distance = work.metric.length(p, end.point);
-      if (end.point == p || distance > work.distances.node) continue;
-      const auto at = nearest_visible(clusters, end.point);
-      if (at && work.metric.length(p, *at) <= work.distances.cut) consider(distance * distance, *at);
-    }
+    });
     return best;
   };
   for (std::size_t i = 0; i < open.size();) {
     const std::uint32_t polygon = open[i].first;
-    const std::size_t first = i;
+    std::vector<LatticePoint> tips;  // where only one line ends
     Clusters clusters(work.distances.node);
     for (const LatticePoint p : boundary_points) clusters.insert_or_merge(flat(p), p);
     for (const CuttingLine& line : work.lines)
@@ -227,8 +236,9 @@ void merge_free_endpoints(TriangleWork& work, const std::vector<LatticePoint>& b
     for (; i < open.size() && open[i].first == polygon; ++i) {
       const LatticePoint p = open[i].second.point;
       if (!nearest_visible(clusters, p)) clusters.insert_or_merge(flat(p), p);
+      if (!ends_at(i - 1, i) && !ends_at(i + 1, i)) tips.push_back(p);
     }
-    const std::span ends = std::span(open).subspan(first, i - first);
+    std::optional<Clusters> reach;
     // Now that all new nodes are known, each end goes to the nearest: the same cut, made again, finds the
     // same nodes.
     for (CuttingLine& line : work.lines)
@@ -237,7 +247,8 @@ void merge_free_endpoints(TriangleWork& work, const std::vector<LatticePoint>& b
         if (is_open(*end)) {
           const LatticePoint other = end == &line.a ? line.b.point : line.a.point;
           const LatticePoint nearest = nearest_visible(clusters, end->point).value_or(end->point);
-          end->point = nearest != other ? nearest : nearest_but(clusters, ends, end->point, other);
+          if (nearest == other && !reach) reach = reaching_tips(clusters, tips);
+          end->point = nearest != other ? nearest : nearest_but(*reach, end->point, other);
         } else if (end->on == LineEnd::On::node && end->detected != end->point &&
                    !context.recent(work.before.nodes[end->index].stamp)) {
           const auto nearer = nearest_visible(clusters, end->detected);
