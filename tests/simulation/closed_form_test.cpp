@@ -204,6 +204,23 @@ TEST_CASE("A ribbon that hangs from its two ends is a catenary") {
     CHECK((mesh.positions[n] - hanging[n]).norm() < 1e-4 * sag);
 }
 
+TEST_CASE("A force on an anchored node does nothing, even if it is no number") {
+  const auto fallen = [](Integrator integrator, double force) {
+    cut::HybridMesh mesh = testing::built(scenes::grid(3, 3));
+    cut::Simulation simulation = testing::simulated(mesh, {});
+    simulation.surroundings.integrator = integrator;
+    simulation.surroundings.gravity = {0, 0, -10};
+    simulation.anchor(NodeId{0u});
+    simulation.set_force(NodeId{0u}, {force, 0, 0});
+    const auto error = simulation.step(mesh, 1e-3, 20);
+    CAPTURE((error ? error->message : ""));
+    REQUIRE_FALSE(error);
+    return mesh.positions;
+  };
+  for (const Integrator integrator : testing::integrators)
+    CHECK(fallen(integrator, std::nan("")) == fallen(integrator, 0));
+}
+
 TEST_CASE("A constant force on one node and on its anchor") {
   cut::HybridMesh mesh = testing::built(scenes::grid(1, 1));
   cut::Simulation simulation = testing::simulated(mesh, {cut::MaterialMode::conserving, 1, 0, 0});

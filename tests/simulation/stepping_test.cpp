@@ -130,6 +130,13 @@ TEST_CASE("Wrong parameters are refused") {
     REQUIRE(error);
     CHECK(error->kind == cut::Error::Kind::bad_parameter);
   }
+  for (const double way : {-1.0, nan, std::numeric_limits<double>::infinity(), 1e50}) {
+    simulation.surroundings.longest_way = way;
+    const auto error = simulation.step(mesh, 0.01);
+    REQUIRE(error);
+    CHECK(error->kind == cut::Error::Kind::bad_parameter);
+  }
+  simulation.surroundings.longest_way = 0;
   ++mesh.topology_version;
   CHECK(simulation.step(mesh, 0.01)->kind == cut::Error::Kind::bad_parameter);
 }

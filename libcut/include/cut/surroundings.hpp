@@ -46,8 +46,9 @@ struct Surroundings {
   /// Obstacles. Steps move them on by their velocities.
   std::vector<HalfSpace> half_spaces;
   std::vector<Sphere> spheres;
-  /// The longest way that a node may go in one step along x, y or z [m]; more is a blow-up. 0: the diagonal
-  /// of the tension-free mesh's bounding box.
+  /// The longest way that a node may go in one step along x, y or z [m], >= 0, < 1e50; more is a blow-up. 0:
+  /// the diagonal of the tension-free mesh's bounding box. Cloth that falls for long needs a longer one when
+  /// steps are long.
   double longest_way = 0;
   /// An implicit step solves its system until the residual is this part of what it was, in at most so many
   /// iterations: hundreds for stiff cloth of a thousand nodes that obstacles hold, and twice as many for

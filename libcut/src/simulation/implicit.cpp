@@ -103,6 +103,7 @@ void Simulation::set_up_system(const HybridMesh& mesh, double time_step) {
     }
   for (std::size_t n = 0; n < nodes; ++n)
     w.inverses[n] = inverse_mass_[n] > 0 ? inverse(w.inverses[n]) : Block{};
+  leave_held(w.right);  // a force there need not even be finite
 }
 
 /// `product` = matrix · vector.

@@ -45,6 +45,8 @@ std::optional<Error> fault_of(const Surroundings& s, double time_step, double wa
   if (!not_negative(s.air_drag) || !not_negative(s.normal_drag))
     return wrong("drag must be finite and not negative");
   if (!(s.tolerance > 0 && s.tolerance < 1)) return wrong("the tolerance must be between 0 and 1");
+  if (!(s.longest_way >= 0 && s.longest_way < largest_coordinate))
+    return wrong("the longest way must be not negative and less than 1e50");
   const auto fault_of_obstacle = [&](const auto& o, const Eigen::Vector3d& place, bool shape,
                                      const std::string& name, std::size_t i) -> std::optional<Error> {
     const std::string which = name + " " + std::to_string(i);
@@ -202,7 +204,8 @@ std::optional<Error> Simulation::unsound_velocity(double speed_limit) const {
   const std::size_t node = first_beyond(forces_, speed_limit);
   if (node == forces_.size()) return std::nullopt;
   const bool finite = within(forces_[node], std::numeric_limits<double>::max());
-  return blow_up(updates_ + 1, node, finite ? "went too far" : "has a velocity that is not finite");
+  return blow_up(updates_ + 1, node,
+                 finite ? "went further in it than longest_way" : "has a velocity that is not finite");
 }
 
 /// Names the first node with a force or velocity that is not finite: of these an implicit step would make
