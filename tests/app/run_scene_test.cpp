@@ -424,6 +424,17 @@ TEST_CASE("a run that blows up in small steps blames the forces") {
   CHECK(advanced.error().message.find(": the forces are too large") != std::string::npos);
 }
 
+TEST_CASE("what falls further in a step than the cloth is long is told so") {
+  SceneRun run = start(scene_of(R"({"cloth": {"shape": "grid", "columns": 2, "rows": 2, "spacing": 0.05},
+    "integrator": "implicit_euler", "time_step": 0.016, "steps_per_frame": 1, "frames": 100})"));
+  snip::Result<> advanced;
+  while ((advanced = run.advance()) && run.frame().number < 99) continue;
+  REQUIRE_FALSE(advanced);
+  CHECK_MESSAGE(advanced.error().message.find("for a time step of 0.016 s: it goes further in one than the "
+                                              "cloth is long, 0.141") != std::string::npos,
+                advanced.error().message);
+}
+
 TEST_CASE("a time step that is too large only after a cut is told of then, once") {
   // A slit along physics edges, with the border held: in paper mode its ends get a spring more and no mass.
   const std::string text = R"({"cloth": {"shape": "grid", "columns": 4, "rows": 4},

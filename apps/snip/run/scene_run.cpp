@@ -122,11 +122,16 @@ Result<> SceneRun::load_cutters(const std::filesystem::path& folder) {
   return {};
 }
 
-/// libcut's own check does not know the place in the scene file.
-Result<> SceneRun::check_obstacles() const {
+/// What a node may go in a time step at most.
+double SceneRun::cloth_diagonal() const {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& p : mesh_.ancestors.rest_positions) box.extend(p);
-  const double way = box.diagonal().stableNorm();
+  return box.diagonal().stableNorm();
+}
+
+/// libcut's own check does not know the place in the scene file.
+Result<> SceneRun::check_obstacles() const {
+  const double way = cloth_diagonal();
   const auto check = [&](const auto& obstacles, const std::vector<std::string>& places) -> Result<> {
     for (std::size_t i = 0; i < obstacles.size(); ++i)
       if (!(obstacles[i].velocity.cwiseAbs().maxCoeff() * scene_.time_step <= way))
@@ -225,7 +230,11 @@ std::string SceneRun::explained(const cut::Error& error) const {
   if (error.kind != cut::Error::Kind::unstable) return error.message;
   const std::string where = fmt::format("the simulation blew up in step {} at node {}", step, error.element);
   const double stable = simulation_.stable_time_step(scene_.surroundings.integrator);
-  if (!(scene_.time_step > stable)) return where + ": the forces are too large";
+  if (!(scene_.time_step > stable))
+    return fmt::format(
+        "{}: the forces are too large, or it is too fast, for a time step of {} s: it goes "
+        "further in one than the cloth is long, {:.3g}",
+        where, scene_.time_step, cloth_diagonal());
   return fmt::format("{}: the time step of {} s is more than the {:.3g} s up to which it is stable", where,
                      scene_.time_step, stable);
 }
