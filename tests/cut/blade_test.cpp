@@ -3,6 +3,7 @@
 #include <cut/pieces.hpp>
 #include <scenes/cloths.hpp>
 #include <scenes/cutters.hpp>
+#include <set>
 
 #include "cut/cut_and_check.hpp"
 
@@ -21,6 +22,20 @@ struct Scene {
   }
   void move_cloth(const Eigen::Vector3d& way) {
     for (Eigen::Vector3d& p : mesh.positions) p += way;
+    mesh.moved();
+  }
+  /// Moves the piece that reaches to x along x.
+  void pull_away(double x, double way) {
+    const cut::Pieces pieces = cut::pieces(mesh);
+    const auto& vertices = mesh.buffers.render_vertices;
+    std::size_t farther = 0;
+    for (std::size_t v = 0; v < vertices.size(); ++v)
+      if (vertices[v].triangle.valid() && mesh.position(vertices[v]).x() == x) farther = pieces.of_vertex[v];
+    std::set<std::size_t> nodes;
+    for (std::size_t v = 0; v < vertices.size(); ++v)
+      if (vertices[v].triangle.valid() && pieces.of_vertex[v] == farther)
+        for (const cut::NodeId n : vertices[v].nodes) nodes.insert(n.index());
+    for (const std::size_t n : nodes) mesh.positions[n].x() += way;
     mesh.moved();
   }
   [[nodiscard]] std::size_t pieces() const { return cut::pieces(mesh).list.size(); }
@@ -95,20 +110,24 @@ TEST_CASE("a blade that stands still in cloth that stands still goes on with its
 }
 
 TEST_CASE("another cut may divide the triangle that the blade is in; the blade stays with its part") {
-  Scene scene;
-  scene.lead_to(-0.5, 2.6);
-  scene.lead_to(4.3, 2.6);
-  cut::Cutter other(cut::default_merge_distances(scene.mesh));
-  REQUIRE(other.cut(scene.mesh, scenes::plane({4.6, 3, 0}, {0.2, 8, 0}, {0, 0, 2})).has_value());
-  REQUIRE(scene.pieces() == 2);
-  // The right part is pulled away; the blade goes on in the left one, to the right.
-  for (std::size_t n = 0; n < scene.mesh.positions.size(); ++n)
-    if (scene.mesh.ancestors.rest_positions[scene.mesh.buffers.nodes[n].index()].x() > 5.5)
-      scene.mesh.positions[n].x() += 0.5;
-  scene.mesh.moved();
-  scene.lead_to(7, 2.6);
-  scene.lead_to(10, 2.6);
-  CHECK(scene.pieces() == 4);
+  for (const bool to_the_right : {true, false})
+    for (const double at : {4.15, 4.3, 4.45, 4.6}) {  // some of these are in the part that is a new triangle
+      CAPTURE(to_the_right);
+      CAPTURE(at);
+      Scene scene;
+      const auto x_of = [&](double x) { return to_the_right ? x : 8 - x; };
+      scene.lead_to(x_of(-0.5), 2.6);
+      scene.lead_to(x_of(at), 2.6);
+      cut::Cutter other(cut::default_merge_distances(scene.mesh));
+      REQUIRE(
+          other.cut(scene.mesh, scenes::plane({x_of(at + 0.15), 3, 0}, {0, 8, 0}, {0, 0, 2})).has_value());
+      REQUIRE(scene.pieces() == 2);
+      scene.pull_away(x_of(8), x_of(1) - x_of(0));
+      // It goes on in the part that it is in: a sweep that starts ahead would leave the rest of it whole.
+      scene.lead_to(x_of(7), 2.6);
+      scene.lead_to(x_of(10), 2.6);
+      CHECK(scene.pieces() == 4);
+    }
 }
 
 TEST_CASE("two layers of cloth are cut by one blade, each from where it was cut last") {

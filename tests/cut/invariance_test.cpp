@@ -171,14 +171,19 @@ TEST_CASE("dividing a cutter's triangles does not change the pieces") {
   }
 }
 
+std::vector<std::uint8_t> bytes_of(std::uint32_t seed, std::size_t count) {
+  std::vector<std::uint8_t> data(count);
+  std::uint32_t state = seed * 2654435761u;
+  for (auto& byte : data) {
+    state = state * 1664525u + 1013904223u;
+    byte = static_cast<std::uint8_t>(state >> 24);
+  }
+  return data;
+}
+
 TEST_CASE("the same cut twice changes nothing, random near misses of nodes included") {
   for (std::uint32_t seed = 1; seed <= 1000; ++seed) {
-    std::vector<std::uint8_t> data(60);
-    std::uint32_t state = seed * 2654435761u;
-    for (auto& byte : data) {
-      state = state * 1664525u + 1013904223u;
-      byte = static_cast<std::uint8_t>(state >> 24);
-    }
+    const auto data = bytes_of(seed, 60);
     random_cuts::Bytes bytes(data.data(), data.size());
     const random_cuts::Cloth cloth = random_cuts::cloth(bytes);
     Session s(cloth.mesh);
@@ -190,6 +195,26 @@ TEST_CASE("the same cut twice changes nothing, random near misses of nodes inclu
       CHECK(again.empty());
       CHECK(s.mesh.buffers == once);
     }
+  }
+}
+
+TEST_CASE("a cut made again beside a new one adds nothing: its ends find the nodes that they went to") {
+  // §7, "additional cluster center": of 40,000 random pairs of cutters those that come out otherwise without.
+  for (const std::uint32_t seed : {1181u, 35889u}) {
+    const auto data = bytes_of(seed, 80);
+    random_cuts::Bytes bytes(data.data(), data.size());
+    const random_cuts::Cloth cloth = random_cuts::cloth(bytes);
+    const cut::HybridMesh mesh = *cut::HybridMesh::build(cloth.mesh);
+    const cut::MergeDistances distances = random_cuts::distances(bytes, mesh);
+    const cut::TriangleMesh first = random_cuts::cutter(bytes, cloth);
+    const cut::TriangleMesh second = random_cuts::cutter(bytes, cloth);
+    Session alone(cloth.mesh, distances);
+    Session again(cloth.mesh, distances);
+    alone.cut(first);
+    alone.cut(second);
+    again.cut(first);
+    again.cut(scenes::joined({first, second}));
+    CHECK(cut::pieces(again.mesh).list.size() == cut::pieces(alone.mesh).list.size());
   }
 }
 

@@ -7,12 +7,12 @@
 #include <cut/cutter.hpp>
 #include <cut/pieces.hpp>
 #include <cut/validate.hpp>
-#include <fstream>
 #include <iomanip>
 #include <numbers>
 #include <scenes/cutters.hpp>
 #include <sstream>
 
+#include "simulation/documents.hpp"
 #include "simulation/linear.hpp"
 #include "simulation/meshes.hpp"
 
@@ -147,13 +147,6 @@ double unevenness(const Measured& m, const Measured& uncut) {
          uncut.energies[0];
 }
 
-std::string text_of(const std::string& path) {
-  std::ifstream file(std::string(SNIP_SOURCE_DIR) + "/" + path);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
 }  // namespace
 
 TEST_CASE("No cut makes cloth swing faster or resist more in any direction; in paper mode cuts do") {
@@ -188,9 +181,9 @@ TEST_CASE("No cut makes cloth swing faster or resist more in any direction; in p
 TEST_CASE("A slit against element refinement and against a finer mesh, and both modes: docs/material.md") {
   const std::vector<Slit> slits{measure_slit(2, 90), measure_slit(6, 90), measure_slit(6, 17)};
   const std::string now = table(slits);
-  CHECK_MESSAGE(text_of("docs/material.md").find(now) != std::string::npos, now);
+  CHECK_MESSAGE(testing::page("material.md").find(now) != std::string::npos, now);
   const std::string modes = modes_table();
-  CHECK_MESSAGE(text_of("docs/material.md").find(modes) != std::string::npos, modes);
+  CHECK_MESSAGE(testing::page("material.md").find(modes) != std::string::npos, modes);
   for (const Slit& slit : slits) {
     CHECK(slit.ours.time_step >= slit.uncut.time_step * (1 - 1e-12));
     CHECK(slit.refined.time_step < 0.5 * slit.uncut.time_step);

@@ -100,6 +100,21 @@ TEST_CASE("Drag alone limits the step, and forward Euler without damping has non
   soft.surroundings.air_drag = 4;
   CHECK(soft.stable_time_step(Integrator::forward_euler) == doctest::Approx(2 / 8.0));
   CHECK(soft.stable_time_step(Integrator::semi_implicit_euler) == doctest::Approx(2 / 8.0));
+  soft.surroundings.air_drag = 1;
+  soft.surroundings.normal_drag = 3;
+  for (const Integrator integrator : {Integrator::forward_euler, Integrator::semi_implicit_euler}) {
+    CHECK(soft.stable_time_step(integrator) == doctest::Approx(2 / 8.0));
+    CHECK(soft.cut_proof_time_step(integrator, mesh) == doctest::Approx(2 / 8.0));
+    for (const double factor : {0.9, 1.1}) {  // across the cloth that is the limit, and not an estimate
+      cut::HybridMesh falling = mesh;
+      cut::Simulation simulation = soft;
+      simulation.surroundings.integrator = integrator;
+      for (std::size_t n = 0; n < mesh.positions.size(); ++n)
+        simulation.set_velocity(NodeId{n}, {0, 0, 0.01});
+      REQUIRE_FALSE(simulation.step(falling, factor / 4, 20));
+      CHECK((simulation.velocity(NodeId{5u}).norm() > 0.01) == (factor > 1));
+    }
+  }
   cut::Simulation undamped = testing::simulated(mesh, {cut::MaterialMode::conserving, 0.5, 10, 0});
   CHECK(undamped.stable_time_step(Integrator::forward_euler) == 0);
 }
