@@ -23,6 +23,16 @@ const char* fault_of(const Material& m) {
   return nullptr;
 }
 
+/// Cuts add entries: with room for an eighth more, the first ones need not move whole arrays.
+template <class... Arrays>
+void make_room(std::size_t entries, Arrays&... arrays) {
+  (arrays.reserve(entries + entries / 8 + 4), ...);
+}
+
+void make_room(std::size_t entries, SpringArrays& springs) {
+  make_room(entries, springs.nodes, springs.rest_length, springs.stiffness, springs.damping);
+}
+
 }  // namespace
 
 Result<Simulation> Simulation::build(const HybridMesh& mesh, const Material& material) {
@@ -38,6 +48,11 @@ Result<Simulation> Simulation::build(const HybridMesh& mesh, const Material& mat
     }
     s.diagonal_ = length(high - low);
   }
+  const std::size_t nodes = mesh.buffers.nodes.size(), springs = mesh.buffers.springs.size();
+  make_room(nodes, s.mass_, s.inverse_mass_, s.anchored_, s.velocities_, s.positions_, s.forces_);
+  make_room(springs, s.springs_);
+  make_room(springs, s.places_);
+  if (material.mode == MaterialMode::conserving) make_room(mesh.buffers.triangles.size(), s.weights_);
   s.resize(mesh);
   for (std::size_t i = 0; i < mesh.buffers.springs.size(); ++i) s.set_spring(SpringId{i}, mesh);
   if (material.mode == MaterialMode::conserving) {
@@ -47,10 +62,12 @@ Result<Simulation> Simulation::build(const HybridMesh& mesh, const Material& mat
   for (std::size_t n = 0; n < mesh.ancestors.rest_positions.size(); ++n)
     s.update_copies(mesh, AncestorNodeId{n});
   if (material.bending_stiffness > 0 || material.bending_damping > 0) {
-    s.reserve_bending(mesh.ancestors.edges.size());
+    const std::size_t edges = mesh.ancestors.edges.size();
+    make_room(edges, s.bending_);
+    make_room(edges, s.next_bending_, s.bending_places_);
+    s.reserve_bending(edges);
     for (std::size_t e = 0; e < mesh.ancestors.edges.size(); ++e) s.update_bending(mesh, AncestorEdgeId{e});
   }
-  const std::size_t nodes = mesh.buffers.nodes.size();
   s.blocks_.reset(nodes, frequent_offsets(s.spring_lists(), nodes));
   s.settle_springs();
   s.sound_.resize(s.blocks_.blocks().size());
@@ -103,6 +120,7 @@ void Simulation::set_velocity(NodeId node, const Eigen::Vector3d& velocity) {
 }
 
 void Simulation::set_force(NodeId node, const Eigen::Vector3d& force) {
+  external_forces_.reserve(mass_.capacity());
   external_forces_.resize(mass_.size());
   external_forces_[node.index()] = padded(force);
 }

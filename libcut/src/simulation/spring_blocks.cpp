@@ -110,6 +110,7 @@ void SpringBlocks::reset(std::size_t nodes, std::vector<std::uint32_t> offsets) 
   const std::size_t size = block_size(nodes, offsets);
   const std::size_t count = std::max<std::size_t>(1, (nodes + size - 1) / size);
   blocks_.assign(count, {});
+  block_of_.reserve(nodes + nodes / 8);
   block_of_.resize(nodes);
   uncut_nodes_ = nodes;
   for (std::size_t n = 0; n < nodes; ++n) block_of_[n] = static_cast<std::uint32_t>(n / size);
