@@ -4,6 +4,7 @@
 /// edge that is not named.
 #pragma once
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "cut/bending.hpp"
@@ -11,6 +12,12 @@
 #include "cut/hybrid_mesh.hpp"
 
 namespace provenance {
+
+/// Entries of the flat arrays have no gaps, so that those that are equal are the same bytes.
+template <class T>
+constexpr bool is_bytes = std::is_trivially_copyable_v<T> && std::has_unique_object_representations_v<T>;
+static_assert(is_bytes<cut::AncestorNodeId> && is_bytes<cut::PhysicsTriangle> && is_bytes<cut::Spring> &&
+              is_bytes<cut::RenderVertex> && is_bytes<cut::RenderTriangle>);
 
 using BendingPairs = std::vector<std::vector<cut::BendingPair>>;
 
