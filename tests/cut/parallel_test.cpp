@@ -2,7 +2,9 @@
 // triangle of a sheet.
 #include <doctest/doctest.h>
 
-#include <array>
+#ifdef SNIP_TBB
+#include <cut/adapt/tbb.hpp>
+#endif
 #include <cut/adapt/threads.hpp>
 #include <random>
 #include <vector>
@@ -38,10 +40,19 @@ cut::HybridMesh cut_to_ribbons(const cut::Executor& executor) {
   return mesh;
 }
 
+std::vector<cut::Executor> parallel_executors() {
+  std::vector<cut::Executor> executors{cut::thread_executor(2), cut::thread_executor(3),
+                                       cut::thread_executor(8)};
+#ifdef SNIP_TBB
+  executors.push_back(cut::tbb_executor());
+#endif
+  return executors;
+}
+
 }  // namespace
 
 TEST_CASE("random cuts are the same for any number of threads") {
-  const std::array executors{cut::thread_executor(2), cut::thread_executor(3), cut::thread_executor(8)};
+  const std::vector<cut::Executor> executors = parallel_executors();
   std::mt19937 random(4);
   for (int sequence = 0; sequence < 40; ++sequence) {
     std::vector<std::uint8_t> data(300);
@@ -55,8 +66,8 @@ TEST_CASE("a sheet cut to ribbons at once is the same for any number of threads"
   const cut::HybridMesh one_thread = cut_to_ribbons({});
   CHECK(one_thread.buffers.triangles.size() >= 1600);  // every triangle was cut
   CHECK(cut::validate(one_thread, 1).empty());
-  for (const std::size_t threads : {std::size_t{2}, std::size_t{3}, std::size_t{8}}) {
-    const cut::HybridMesh mesh = cut_to_ribbons(cut::thread_executor(threads));
+  for (const cut::Executor& executor : parallel_executors()) {
+    const cut::HybridMesh mesh = cut_to_ribbons(executor);
     CHECK(mesh.buffers == one_thread.buffers);
     CHECK(mesh.edge_states == one_thread.edge_states);
   }
