@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "box.hpp"
+#include "detail/first_search.hpp"
 #include "detail/holder.hpp"
 #include "detail/inspect.hpp"
 #include "detail/ordered_search.hpp"
@@ -235,7 +236,7 @@ class TreeQueries {
     const size_type limit = detail::count_limit(predicate);
     if (limit < size()) {
       detail::visit_first(core_, metric, filter, limit, [&](const auto& each) {
-        return hand_over(core_.leaf(each.place.index()), each.position, Metric::distance(each.key));
+        return hand_over(core_.leaf(each.leaf), each.position, Metric::distance(each.key));
       });
     } else {
       detail::OrderedCursor<Core, Metric, Filter> cursor(core_, metric, filter, limit);

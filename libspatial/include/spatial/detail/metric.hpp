@@ -8,6 +8,10 @@
 #include <limits>
 #include <type_traits>
 
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
 #include "../box.hpp"
 #include "../predicates.hpp"
 #include "lanes.hpp"
@@ -24,9 +28,7 @@ class BoxMetric {
  public:
   using S = DistanceOf<T>;
   static constexpr S never = std::numeric_limits<S>::quiet_NaN();
-  explicit BoxMetric(const Box<T, D>& query) : q_(query), valid_(is_valid(query)), point_(is_point(query)) {
-    for (const T x : query.min) point_ &= x - x == 0;
-  }
+  explicit BoxMetric(const Box<T, D>& query) : q_(query), valid_(is_valid(query)) {}
 
   /// keys[i] is the key of box i, or NaN for one that is never reached. There is room for keys_room of them;
   /// those beyond `count` mean nothing. @pre count <= mask_bits
@@ -34,19 +36,6 @@ class BoxMetric {
 #ifdef SPATIAL_WIDE
     if constexpr (Pack<T>::width != 0) {
       using V = typename Pack<T>::V;
-      if (rows.upper == 0 && point_) {
-        for (std::size_t i = 0; i < count; i += Pack<T>::width) {
-          V sum{};
-          for (std::size_t a = 0; a < D; ++a) {
-            V x;
-            std::memcpy(&x, rows.low(a) + i, sizeof(V));
-            const V gap = x - q_.min[a];
-            sum += gap * gap;
-          }
-          std::memcpy(keys + i, &sum, sizeof(V));
-        }
-        return;
-      }
       for (std::size_t i = 0; i < count; i += Pack<T>::width) {
         V sum = V{} + (valid_ ? S{0} : never);
         for (std::size_t a = 0; a < D; ++a) {
@@ -79,27 +68,46 @@ class BoxMetric {
       }
     }
   }
-  /// The key of one box, by its corners.
+  /// The key of one box, by its corners. Without branches, which would be taken at random.
   [[nodiscard]] S key(const T* min, const T* max) const {
     S sum = valid_ ? S{0} : never;
     std::size_t a = 0;
-#ifdef SPATIAL_WIDE
-    // Two axes at a time.
+#ifdef __SSE2__
+    // Two axes at a time, each rounded as in keys().
     if constexpr (std::is_same_v<T, double>) {
-      typedef double V __attribute__((vector_size(16)));
       for (; a + 2 <= D; a += 2) {
-        V low, high, least, greatest;
-        std::memcpy(&low, min + a, sizeof(V));
-        std::memcpy(&high, max + a, sizeof(V));
-        std::memcpy(&least, &q_.min[a], sizeof(V));
-        std::memcpy(&greatest, &q_.max[a], sizeof(V));
-        const V above = low - greatest;
-        const V below = least - high;
-        const V outside = above > below ? above : below;
-        const V gap = outside > V{} ? outside : V{};
-        sum += gap[0] * gap[0];  // as in keys(), so that both are rounded alike where products are fused
+        const __m128d above = _mm_sub_pd(_mm_loadu_pd(min + a), _mm_loadu_pd(&q_.max[a]));
+        const __m128d below = _mm_sub_pd(_mm_loadu_pd(&q_.min[a]), _mm_loadu_pd(max + a));
+        const __m128d gap = _mm_max_pd(_mm_max_pd(above, below), _mm_setzero_pd());
+        sum += gap[0] * gap[0];
         sum += gap[1] * gap[1];
       }
+      if (a < D) {
+        const __m128d above = _mm_sub_sd(_mm_load_sd(min + a), _mm_load_sd(&q_.max[a]));
+        const __m128d below = _mm_sub_sd(_mm_load_sd(&q_.min[a]), _mm_load_sd(max + a));
+        const __m128d gap = _mm_max_sd(_mm_max_sd(above, below), _mm_setzero_pd());
+        sum += gap[0] * gap[0];
+      }
+      return sum;
+    }
+    if constexpr (std::is_same_v<T, float>) {
+      const auto two = [](const float* from) {
+        return _mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(from)));
+      };
+      for (; a + 2 <= D; a += 2) {
+        const __m128 above = _mm_sub_ps(two(min + a), two(&q_.max[a]));
+        const __m128 below = _mm_sub_ps(two(&q_.min[a]), two(max + a));
+        const __m128 gap = _mm_max_ps(_mm_max_ps(above, below), _mm_setzero_ps());
+        sum += gap[0] * gap[0];
+        sum += gap[1] * gap[1];
+      }
+      if (a < D) {
+        const __m128 above = _mm_sub_ss(_mm_load_ss(min + a), _mm_load_ss(&q_.max[a]));
+        const __m128 below = _mm_sub_ss(_mm_load_ss(&q_.min[a]), _mm_load_ss(max + a));
+        const __m128 gap = _mm_max_ss(_mm_max_ss(above, below), _mm_setzero_ps());
+        sum += gap[0] * gap[0];
+      }
+      return sum;
     }
 #endif
     for (; a < D; ++a) {
@@ -112,21 +120,16 @@ class BoxMetric {
     return sum;
   }
   [[nodiscard]] S key(const Box<T, D>& box) const { return key(box.min.data(), box.max.data()); }
-  /// That of a point. @pre is_point()
-  [[nodiscard]] S point_key(const T* point) const {
-    S sum{};
-    for (std::size_t a = 0; a < D; ++a) {
-      const S gap = static_cast<S>(point[a]) - static_cast<S>(q_.min[a]);
-      sum += gap * gap;
-    }
-    return sum;
-  }
-  [[nodiscard]] bool has_point_keys() const { return point_; }
-  /// Every box with a key of at most `worst` reaches into [low, high], with some room for what is rounded.
+  [[nodiscard]] const Box<T, D>& query() const { return q_; }
+  /// False if no box is ever reached: the query is empty or NaN.
+  [[nodiscard]] bool reaches_any() const { return valid_; }
+  /// What has a key of at most `worst` lies within this distance, with some room for what is rounded.
   static constexpr bool has_reach = true;
-  void reach(S worst, Point<S, D>& low, Point<S, D>& high) const {
-    constexpr S slack = 8 * std::numeric_limits<S>::epsilon();
-    const S radius = std::sqrt(worst) * (1 + slack) + 2 * std::sqrt(std::numeric_limits<S>::min());
+  [[nodiscard]] static S radius(S worst) {
+    return std::sqrt(worst) * (1 + slack) + 2 * std::sqrt(std::numeric_limits<S>::min());
+  }
+  /// Every box within a radius reaches into [low, high].
+  void reach(S radius, Point<S, D>& low, Point<S, D>& high) const {
     for (std::size_t a = 0; a < D; ++a) {
       const S least = static_cast<S>(q_.min[a]) - radius;
       const S greatest = static_cast<S>(q_.max[a]) + radius;
@@ -139,9 +142,9 @@ class BoxMetric {
   [[nodiscard]] static S distance(S key) { return std::sqrt(key); }
 
  private:
+  static constexpr S slack = 8 * std::numeric_limits<S>::epsilon();
   Box<T, D> q_;
   bool valid_;
-  bool point_;  // with finite coordinates
 };
 
 /// The t at which a path enters a box.
@@ -211,8 +214,6 @@ class PathMetric {
     return enter <= leave ? enter : never;
   }
   static constexpr bool has_reach = false;
-  [[nodiscard]] S point_key(const T*) const { return never; }
-  [[nodiscard]] static constexpr bool has_point_keys() { return false; }
   [[nodiscard]] bool is_higher(std::size_t axis, T plane) const {
     return origin_[axis] > static_cast<S>(plane);
   }

@@ -50,6 +50,16 @@ struct OverviewNode {
     stride = std::min<std::size_t>(count - block, level_block);
     return levels + block * 2 * D + child % level_block;
   }
+  /// Whether a child may touch a box with these levels.
+  [[nodiscard]] bool reaches(std::uint32_t child, const LevelBounds<D>& box) const {
+    std::size_t stride = 0;
+    const Level* const own = level_column(child, stride);
+    bool result = true;
+    for (std::size_t a = 0; a < D; ++a) {
+      result &= own[a * stride] <= box.high[a] && box.low[a] <= own[(D + a) * stride];
+    }
+    return result;
+  }
   /// Whether a box may lie in that of a child, as far as levels tell.
   [[nodiscard]] bool holds(std::uint32_t child, const Box<T, D>& box) const {
     std::size_t stride = 0;
@@ -233,6 +243,17 @@ class Overview {
       } else {
         ++i;
       }
+    }
+    // Where several may hold the nearest, the first one is looked at first: small ones tell most.
+    std::sort(result.items, result.items + result.count,
+              [](const Child& a, const Child& b) { return longest_side(a.box) < longest_side(b.box); });
+    return result;
+  }
+  static DistanceOf<T> longest_side(const Box<T, D>& box) {
+    DistanceOf<T> result = 0;
+    for (std::size_t a = 0; a < D; ++a) {
+      const auto side = static_cast<DistanceOf<T>>(box.max[a]) - static_cast<DistanceOf<T>>(box.min[a]);
+      result = side > result ? side : result;
     }
     return result;
   }

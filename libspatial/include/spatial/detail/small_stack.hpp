@@ -17,6 +17,11 @@ class SmallStack {
       more_.push_back(item);
     }
   }
+  /// Adds an item that is still to be filled.
+  T& push() {
+    if (size_ < Inline) return items_[size_++];
+    return more_.emplace_back();
+  }
   T pop() {
     if (size_ == Inline && !more_.empty()) {
       T item = more_.back();
@@ -25,6 +30,16 @@ class SmallStack {
     }
     return items_[--size_];
   }
+  void drop() {
+    if (size_ == Inline && !more_.empty()) {
+      more_.pop_back();
+    } else {
+      --size_;
+    }
+  }
+  [[nodiscard]] T& operator[](std::size_t i) { return i < Inline ? items_[i] : more_[i - Inline]; }
+  [[nodiscard]] T& top() { return (*this)[size() - 1]; }
+  [[nodiscard]] std::size_t size() const { return size_ + more_.size(); }
   [[nodiscard]] bool empty() const { return size_ == 0; }
 
  private:
