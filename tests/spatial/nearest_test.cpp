@@ -188,4 +188,7 @@ TEST_CASE("among many that enclose the query, few are looked at") {
   const auto counted = spatial::satisfies([&](int) { return ++looked_at > 0; });
   CHECK(tree.query(spatial::nearest(spatial::Point<double, 2>{0, 0}, 20) && counted, [](int) {}) == 20);
   CHECK(looked_at < 200);
+  looked_at = 0;
+  CHECK(tree.query(spatial::nearest(spatial::Point<double, 2>{0, 0}, 1) && counted, [](int) {}) == 1);
+  CHECK(looked_at == 1);
 }

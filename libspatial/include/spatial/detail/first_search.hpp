@@ -33,7 +33,7 @@ class FirstSearch {
 
   void run() {
     if (core_.root().empty() || !filter_.may(core_.root_box())) return;
-    if constexpr (has_levels && all_pass) {
+    if constexpr (has_levels && all_pass && D <= most_axes_by_overview) {
       if (!core_.overview().empty()) {
         if (metric_.reaches_any()) walk_overview();
         return;
@@ -50,6 +50,8 @@ class FirstSearch {
  private:
   static constexpr bool all_pass = std::is_same_v<Filter, Everything<T, D>>;
   static constexpr bool has_levels = Metric::has_reach;
+  // Distances of levels tell the less, the more axes there are: then the nodes lead to fewer leaves.
+  static constexpr std::size_t most_axes_by_overview = 4;
   using NodeType = typename Core::NodeType;
   using LeafType = typename Core::LeafType;
   using Measure = LevelMeasure<T, D>;
@@ -233,14 +235,13 @@ class FirstSearch {
       count += keys[count] <= worst ? 1 : 0;
     }
     if constexpr (!all_pass) {
-      const std::size_t all = count;
-      count = 0;
-      for (std::size_t i = 0; i < all; ++i) {
+      // A filter may be expensive: it is asked of nothing that is not wanted.
+      for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t at = begin + positions[i];
-        if (!filter_.test(leaf.box(at), unwrap(leaf.values()[at]))) continue;
-        keys[count] = keys[i];
-        positions[count++] = positions[i];
+        if (best_.wants(keys[i]) && filter_.test(leaf.box(at), unwrap(leaf.values()[at])))
+          best_.add(index, begin, keys + i, positions + i, 1);
       }
+      return;
     }
     best_.add(index, begin, keys, positions, count);
   }
