@@ -83,9 +83,8 @@ void keep_stamps(HybridMesh& mesh, const TriangleWork& work, const CutContext& c
   for (std::size_t i = 0; i < 3; ++i)
     for (std::uint32_t j = 0; j < work.boundary_counts[i]; ++j, ++n) {
       if (work.stamps[n] != context.this_cut) continue;
-      const std::int32_t t = work.graph.points[n][next_corner(i)];
       stamp_edge_node(mesh, ancestor.edges[i],
-                      mesh.ancestors.reversed(work.ancestor, i) ? lattice_size - t : t, context.this_cut);
+                      along_edge(mesh.ancestors, work.ancestor, i, work.graph.points[n]), context.this_cut);
     }
   const std::uint32_t index = mesh.arrangement_of[work.ancestor.index()];
   if (work.changed || index == HybridMesh::none) return;

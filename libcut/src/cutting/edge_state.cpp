@@ -36,10 +36,9 @@ std::vector<LatticePoint> boundary_points(const HybridMesh& mesh, AncestorId tri
   std::vector<LatticePoint> points;
   const EdgeState* state = mesh.edge_state(mesh.ancestors.triangles[triangle.index()].edges[i]);
   if (state == nullptr) return points;
-  const bool reversed = mesh.ancestors.reversed(triangle, i);
   for (const BoundaryNode& n : state->nodes)
-    points.push_back(lattice_point_on_edge(i, reversed ? lattice_size - n.t : n.t));
-  if (reversed) std::reverse(points.begin(), points.end());
+    points.push_back(point_along_edge(mesh.ancestors, triangle, i, n.t));
+  if (mesh.ancestors.reversed(triangle, i)) std::reverse(points.begin(), points.end());
   return points;
 }
 

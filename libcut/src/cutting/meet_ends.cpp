@@ -10,6 +10,7 @@
 #include "cutting/merge_across_edges.hpp"
 #include "lattice/components.hpp"
 #include "lattice/plane.hpp"
+#include "mesh/sections.hpp"
 #include "spatial/point_cluster_dictionary.hpp"
 
 namespace cut {
@@ -61,13 +62,10 @@ struct Place {
 Place place(const HybridMesh& mesh, AncestorId t, LatticePoint p) {
   const Ancestor& ancestor = mesh.ancestors.triangles[t.index()];
   if (const std::size_t corner = corner_of(p); corner < 3)
-    return {Place::In::node, static_cast<std::uint32_t>(ancestor.nodes[corner].index()), {}};
+    return {Place::In::node, ancestor.nodes[corner].value, {}};
   const std::size_t side = edge_of(p);
-  if (side == 3) return {Place::In::triangle, static_cast<std::uint32_t>(t.index()), p};
-  const std::int32_t at = p[next_corner(side)];
-  return {Place::In::edge,
-          static_cast<std::uint32_t>(ancestor.edges[side].index()),
-          {mesh.ancestors.reversed(t, side) ? lattice_size - at : at, 0}};
+  if (side == 3) return {Place::In::triangle, t.value, p};
+  return {Place::In::edge, ancestor.edges[side].value, {along_edge(mesh.ancestors, t, side, p), 0}};
 }
 
 /// Which ends are tips, and which of them are ends of the same chain of lines.
@@ -184,16 +182,12 @@ class Meeting {
     const SeenEnd& seen = ends_.seen[i];
     double nearest = infinity;
     if (seen.target.on != On::nothing) return nearest;
-    for (const SeenEnd& other : of_work(i))
+    for (const SeenEnd& other : std::ranges::equal_range(ends_.seen, seen.ancestor, {}, &SeenEnd::ancestor))
       if (other.polygon == seen.polygon && other.target.on == On::nothing &&
           other.target.point != seen.target.point)
         nearest = std::min(nearest,
                            works_[ends_.whose[i].work].metric.length(other.target.point, seen.target.point));
     return nearest;
-  }
-
-  [[nodiscard]] std::ranges::subrange<std::vector<SeenEnd>::const_iterator> of_work(std::size_t i) const {
-    return std::ranges::equal_range(ends_.seen, ends_.seen[i].ancestor, {}, &SeenEnd::ancestor);
   }
 
   const HybridMesh& mesh_;

@@ -199,7 +199,7 @@ class Neighbourhood::Walk {
       const Gate& gate = gates_[passed - 1];
       const std::size_t side = mesh_.ancestors.local_edge(last->ancestor, gate.edge);
       if (!on_side(target.point, side)) break;
-      const std::int32_t t = along(last->ancestor, side, target.point);
+      const std::int32_t t = along_edge(mesh_.ancestors, last->ancestor, side, target.point);
       if (t < gate.first || gate.last < t) return;
       last = gate.inner;
       const bool passes = target.passes;
@@ -221,7 +221,7 @@ class Neighbourhood::Walk {
     if (passed == 1) {
       const Gate& gate = gates_.front();
       const std::size_t side = mesh_.ancestors.local_edge(gate.inner->ancestor, gate.edge);
-      const std::int32_t t = along(gate.inner->ancestor, side, other_);
+      const std::int32_t t = along_edge(mesh_.ancestors, gate.inner->ancestor, side, other_);
       if (on_side(other_, side) && gate.first <= t && t <= gate.last) passes.front() = t;
     }
 
@@ -240,14 +240,9 @@ class Neighbourhood::Walk {
     best_distance_ = distance;
   }
 
-  [[nodiscard]] std::int32_t along(AncestorId t, std::size_t side, LatticePoint p) const {
-    const std::int32_t at = p[next_corner(side)];
-    return mesh_.ancestors.reversed(t, side) ? lattice_size - at : at;
-  }
-
   [[nodiscard]] LatticePoint on_edge(const TriangleWork& work, AncestorEdgeId edge, std::int32_t t) const {
     const std::size_t side = mesh_.ancestors.local_edge(work.ancestor, edge);
-    return lattice_point_on_edge(side, mesh_.ancestors.reversed(work.ancestor, side) ? lattice_size - t : t);
+    return point_along_edge(mesh_.ancestors, work.ancestor, side, t);
   }
 
   static bool hidden(const TriangleWork& work, LatticePoint a, LatticePoint b) {

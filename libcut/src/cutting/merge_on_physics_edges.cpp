@@ -19,12 +19,6 @@ struct EdgePoint {
   std::int32_t merged = 0;  ///< where it went
 };
 
-/// Position along its ancestor edge of a point on side i of a triangle.
-std::int32_t along_edge(const AncestorMesh& ancestors, AncestorId triangle, std::size_t i, LatticePoint p) {
-  const std::int32_t t = p[next_corner(i)];
-  return ancestors.reversed(triangle, i) ? lattice_size - t : t;
-}
-
 /// A place from which a node of the edge attracts points.
 struct Target {
   std::int32_t t;
@@ -151,8 +145,7 @@ void merge_on_physics_edges(HybridMesh& mesh, std::vector<TriangleWork>& works, 
         if (end->on != LineEnd::On::physics_edge || corner_of(end->point) < 3) continue;
         const std::size_t i = edge_of(end->point);
         const auto found = std::ranges::lower_bound(points, place_of(edge_point(work, *end)), {}, place_of);
-        end->point = lattice_point_on_edge(
-            i, ancestors.reversed(work.ancestor, i) ? lattice_size - found->merged : found->merged);
+        end->point = point_along_edge(ancestors, work.ancestor, i, found->merged);
       }
   });
 

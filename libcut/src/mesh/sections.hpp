@@ -1,6 +1,6 @@
 /// @file
 /// Reading what cuts made of the sections of an ancestor edge: where each is, which polygon lies at it, and
-/// whether it is cut.
+/// whether it is cut. Places along an edge, which the triangles beside it count in different directions.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -9,6 +9,18 @@
 #include "cut/hybrid_mesh.hpp"
 
 namespace cut {
+
+/// Where a point of side i of a triangle lies, in lattice units from the start of the edge.
+inline std::int32_t along_edge(const AncestorMesh& ancestors, AncestorId t, std::size_t i, LatticePoint p) {
+  const std::int32_t along = p[next_corner(i)];
+  return ancestors.reversed(t, i) ? lattice_size - along : along;
+}
+
+/// The point of side i of a triangle that lies so far along the edge.
+inline LatticePoint point_along_edge(const AncestorMesh& ancestors, AncestorId t, std::size_t i,
+                                     std::int32_t along) {
+  return lattice_point_on_edge(i, ancestors.reversed(t, i) ? lattice_size - along : along);
+}
 
 /// The polygon that triangle t has at each section of its side i, in the direction of the ancestor edge.
 /// Calls `visit(section, polygon)`.
