@@ -234,15 +234,17 @@ class TreeQueries {
           sink, detail::unwrap(leaf.values()[at]), [&] { return handle_of(leaf.id(at)); }, distance);
     };
     const size_type limit = detail::count_limit(predicate);
-    if (limit < size()) {
-      detail::visit_first(core_, metric, filter, limit, [&](const auto& each) {
-        return hand_over(core_.leaf(each.leaf), each.position, Metric::distance(each.key));
-      });
-    } else {
-      detail::OrderedCursor<Core, Metric, Filter> cursor(core_, metric, filter, limit);
-      while (cursor.next()) {
-        if (!hand_over(cursor.leaf(), cursor.position(), cursor.distance())) break;
+    if constexpr (Metric::has_reach) {  // of a path all hits are wanted
+      if (limit < size()) {
+        detail::visit_first(core_, metric, filter, limit, [&](const auto& each) {
+          return hand_over(core_.leaf(each.leaf), each.position, Metric::distance(each.key));
+        });
+        return found;
       }
+    }
+    detail::OrderedCursor<Core, Metric, Filter> cursor(core_, metric, filter, limit);
+    while (cursor.next()) {
+      if (!hand_over(cursor.leaf(), cursor.position(), cursor.distance())) break;
     }
     return found;
   }

@@ -33,7 +33,7 @@ class FirstSearch {
 
   void run() {
     if (core_.root().empty() || !filter_.may(core_.root_box())) return;
-    if constexpr (has_levels && all_pass && D <= most_axes_by_overview) {
+    if constexpr (all_pass && D <= most_axes_by_overview) {
       if (!core_.overview().empty()) {
         if (metric_.reaches_any()) walk_overview();
         return;
@@ -49,7 +49,6 @@ class FirstSearch {
 
  private:
   static constexpr bool all_pass = std::is_same_v<Filter, Everything<T, D>>;
-  static constexpr bool has_levels = Metric::has_reach;
   // Distances of levels tell the less, the more axes there are: then the nodes lead to fewer leaves.
   static constexpr std::size_t most_axes_by_overview = 4;
   using NodeType = typename Core::NodeType;
@@ -62,10 +61,10 @@ class FirstSearch {
     S key;
     std::uint32_t bits;  // of a ChildRef
   };
-  using Waiting = SmallStack<Part, stack_inline>;
+  using Parts = SmallStack<Part, stack_inline>;
 
   // Puts the children that may hold something near onto the stack, except one, farthest first.
-  void open(const NodeType& node, std::uint32_t except, Waiting& waiting) {
+  void open(const NodeType& node, std::uint32_t except, Parts& waiting) {
     S keys[keys_room];
     metric_.keys(rows_of<Core>(node), 3, keys);
     const std::uint32_t near = below(keys, 3, best_.worst(), !best_.full()) & ~(1u << except);
@@ -85,7 +84,7 @@ class FirstSearch {
     }
   }
   void walk_nodes() {
-    Waiting waiting;
+    Parts waiting;
     // First straight down by the planes, as long as nothing lies across them: a plane is compared sooner than
     // three boxes. What is beside this way is looked at afterwards, from below: most of it is too far by
     // then.
@@ -199,21 +198,19 @@ class FirstSearch {
     for (std::uint32_t begin = 0; begin < leaf.count && best_.wants(S{0}); begin += level_bits) {
       const std::uint32_t count = leaf.count - begin < level_bits ? leaf.count - begin : level_bits;
       std::uint64_t near = first_level_bits(count);
-      if constexpr (has_levels) {
-        const std::size_t missing = best_.full() ? 0 : best_.missing();
-        if (missing < count && metric_.reaches_any()) {
-          constexpr std::size_t rows = OfPoints ? D : 2 * D;
-          const Measure measure(leaf.frame(), metric_.query());
-          LevelDistances distances;
-          distances.compute(measure, leaf.levels(begin), rows, 0, rows - D, count, leaf.capacity - begin);
-          std::uint64_t done = 0;
-          if (missing > 0) {
-            // The nearest by their levels, so that soon there are enough.
-            done = distances.at_most(distances.enclosing(static_cast<std::uint32_t>(missing)));
-            add<OfPoints>(leaf, index, begin, done);
-          }
-          near = distances.at_most(measure.limit(metric_.radius(best_.worst()))) & ~done;
+      const std::size_t missing = best_.full() ? 0 : best_.missing();
+      if (missing < count && metric_.reaches_any()) {
+        constexpr std::size_t rows = OfPoints ? D : 2 * D;
+        const Measure measure(leaf.frame(), metric_.query());
+        LevelDistances distances;
+        distances.compute(measure, leaf.levels(begin), rows, 0, rows - D, count, leaf.capacity - begin);
+        std::uint64_t done = 0;
+        if (missing > 0) {
+          // The nearest by their levels, so that soon there are enough.
+          done = distances.at_most(distances.enclosing(static_cast<std::uint32_t>(missing)));
+          add<OfPoints>(leaf, index, begin, done);
         }
+        near = distances.at_most(measure.limit(metric_.radius(best_.worst()))) & ~done;
       }
       add<OfPoints>(leaf, index, begin, near);
     }

@@ -33,7 +33,8 @@ struct LevelMeasure {
       weight[a] = static_cast<std::uint16_t>(width * width * (65536 * one));
     }
   }
-  /// The square of the distance from a box to the box that a frame was made around: no level tells it.
+  /// At most the square of the distance from a box to the box that a frame was made around, which no level
+  /// tells: good enough for an order.
   [[nodiscard]] static S squared_outside(const Frame<T, D>& frame, const Box<T, D>& box) {
     S sum{};
     for (std::size_t a = 0; a < D; ++a) {
@@ -158,7 +159,7 @@ class LevelDistances {
     distances_[at] = never;
     return true;
   }
-  /// The same of these few. @pre there is one, and none was taken
+  /// The same of these few. @pre there is one, and none of these was taken
   std::uint32_t take_nearest_of(std::uint64_t these) {
     auto at = static_cast<std::uint32_t>(std::countr_zero(these));
     for (these &= these - 1; these != 0; these &= these - 1) {
@@ -168,8 +169,9 @@ class LevelDistances {
     distances_[at] = never;
     return at;
   }
-  /// A distance that at least `number` boxes are not beyond, and few more. @pre 0 < number <= count, none was
-  /// taken
+  /// A distance that at least `number` boxes are not beyond, and not many more unless they lie close
+  /// together.
+  /// @pre 0 < number <= count, none was taken
   [[nodiscard]] std::int16_t enclosing(std::uint32_t number) const {
     int inner = least();
     if (number == 1) return static_cast<std::int16_t>(inner);

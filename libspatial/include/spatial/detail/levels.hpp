@@ -65,7 +65,7 @@ struct Frame {
     return frame;
   }
 
-  /// Monotone in x, whatever is rounded. @pre x is not NaN
+  /// Monotone in x, whatever is rounded. NaN has the lowest level.
   [[nodiscard]] Level level(std::size_t axis, S x) const {
     S v = (x - origin[axis]) * scale[axis];
     v = v > 0 ? v : S{0};

@@ -214,9 +214,6 @@ class PathMetric {
     return enter <= leave ? enter : never;
   }
   static constexpr bool has_reach = false;
-  [[nodiscard]] bool is_higher(std::size_t axis, T plane) const {
-    return origin_[axis] > static_cast<S>(plane);
-  }
   [[nodiscard]] static S distance(S key) { return key; }
 
  private:

@@ -24,7 +24,8 @@ struct Keyed {
 };
 
 /// Of a few the greatest one is known, and gives way to what is smaller. Many are collected, and thinned out
-/// whenever twice as many have come together, which costs constant time for each.
+/// when there are a quarter too many for the first time, then twice as many; that costs constant time for
+/// each.
 template <class S>
 class Smallest {
  public:
@@ -45,7 +46,7 @@ class Smallest {
   [[nodiscard]] S worst() const { return worst_; }
   /// True once there are enough.
   [[nodiscard]] bool full() const { return full_; }
-  /// How many are needed until there are enough. @pre !full()
+  /// How many are needed until there are enough; 0 also while the first ones wait to be thinned out.
   [[nodiscard]] std::size_t missing() const { return limit_ - std::min(limit_, count_); }
 
   /// Adds elements of one leaf; element i is at first + positions[i]. @pre count <= level_bits, 0 <= keys[i]
