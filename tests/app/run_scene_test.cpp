@@ -277,8 +277,8 @@ TEST_CASE("moving anchors: two for a node, and one that is too fast, are named")
         "s.json:2: /anchors/1: node 2 has an anchor already, and one of the two moves");
   CHECK(
       message(R"({"nodes": [1, 2], "keyframes": [{"at": 1e-4, "move": [0, 100, 0]}]})") ==
-      "frame 1 (0 s): s.json:2: /anchors/0: it takes node 1 further in a time step of 0.001 s than the cloth "
-      "is long, 2.83");
+      "frame 1 (0 s): s.json:2: /anchors/0: it takes node 1 further in a time step of 0.001 s than "
+      "longest_way, 2.83 m");
 }
 
 TEST_CASE("mass and density say the same in two ways") {
@@ -424,15 +424,21 @@ TEST_CASE("a run that blows up in small steps blames the forces") {
   CHECK(advanced.error().message.find(": the forces are too large") != std::string::npos);
 }
 
-TEST_CASE("what falls further in a step than the cloth is long is told so") {
-  SceneRun run = start(scene_of(R"({"cloth": {"shape": "grid", "columns": 2, "rows": 2, "spacing": 0.05},
-    "integrator": "implicit_euler", "time_step": 0.016, "steps_per_frame": 1, "frames": 100})"));
-  snip::Result<> advanced;
-  while ((advanced = run.advance()) && run.frame().number < 99) continue;
+TEST_CASE("what falls further in a step than the longest way is told so") {
+  Scene scene = scene_of(R"({"cloth": {"shape": "grid", "columns": 2, "rows": 2, "spacing": 0.05},
+    "integrator": "implicit_euler", "time_step": 0.016, "steps_per_frame": 1, "frames": 100})");
+  const auto run_on = [](SceneRun run) {
+    snip::Result<> advanced;
+    while ((advanced = run.advance()) && run.frame().number < 99) continue;
+    return advanced;
+  };
+  const snip::Result<> advanced = run_on(start(scene));
   REQUIRE_FALSE(advanced);
-  CHECK_MESSAGE(advanced.error().message.find("for a time step of 0.016 s: it goes further in one than the "
-                                              "cloth is long, 0.141") != std::string::npos,
+  CHECK_MESSAGE(advanced.error().message.find("for a time step of 0.016 s: it goes further in one than "
+                                              "longest_way, 0.141 m") != std::string::npos,
                 advanced.error().message);
+  scene.surroundings.longest_way = 0.3;
+  CHECK(run_on(start(scene)));
 }
 
 TEST_CASE("a time step that is too large only after a cut is told of then, once") {

@@ -65,7 +65,7 @@ TEST_CASE("every key reaches its place") {
     "cloth": {"file": "a/b.obj", "scale": 2, "turn": {"axis": [0, 0, 1], "degrees": 90}, "move": [5, 0, 0]},
     "material": {"mode": "paper", "mass": 3, "stiffness": 40, "damping": 0.5},
     "anchors": [{"box": [[0, 0, 0], [1, 2, 3]]}, {"nodes": [4, 7]}],
-    "gravity": [0, -1, 0], "air_drag": 0.25, "normal_drag": 0.75, "wind": [1, 2, 3],
+    "gravity": [0, -1, 0], "air_drag": 0.25, "normal_drag": 0.75, "wind": [1, 2, 3], "longest_way": 7,
     "integrator": "forward_euler", "obstacles": [
       {"sphere": {"centre": [1, 2, 3], "radius": 4, "velocity": [0, 0, 5], "friction": 0.5}},
       {"half_space": {"point": [0, 0, -1], "normal": [0, 1, 1], "velocity": [6, 0, 0], "friction": 0.25}}],
@@ -96,6 +96,7 @@ TEST_CASE("every key reaches its place") {
   CHECK(scene.surroundings.air_drag == 0.25);
   CHECK(scene.surroundings.wind == Vector3d(1, 2, 3));
   CHECK(scene.surroundings.normal_drag == 0.75);
+  CHECK(scene.surroundings.longest_way == 7);
   CHECK(scene.surroundings.integrator == cut::Integrator::forward_euler);
   REQUIRE(scene.surroundings.spheres.size() == 1);
   CHECK(scene.surroundings.spheres[0].centre == Vector3d(1, 2, 3));
@@ -181,6 +182,7 @@ TEST_CASE("integrators and obstacles: names, and what is said about wrong ones")
   CHECK(plain.surroundings.half_spaces[0].normal == Vector3d(0, 0, 1));
   CHECK(plain.surroundings.spheres[0].radius == 1);
   CHECK(error_with(R"("normal_drag": -1)") == "s.json:3: /normal_drag: cannot be negative, is -1");
+  CHECK(error_with(R"("longest_way": 0)") == "s.json:3: /longest_way: has to be greater than 0, is 0");
   CHECK(error_with("\"obstacles\": [{\"half_space\": {}},\n{\"half_space\": {\"normal\": [0, 0, 0]}}]") ==
         "s.json:4: /obstacles/1/half_space/normal: cannot be zero");
   CHECK(error_with(R"("obstacles": [{"sphere": {"radius": 0}}])") ==

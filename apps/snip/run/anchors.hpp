@@ -22,14 +22,13 @@ class Anchors {
                               cut::Simulation& simulation);
 
   /// Nodes on moving anchors get the velocity that takes them to where the scene has them at the time `to`,
-  /// a frame from now. Error: a time step takes one further than the cloth is long. O(nodes).
+  /// a frame from now. Error: a time step takes one further than `longest_way`. O(nodes).
   Result<> aim(const Scene& scene, double to, const cut::HybridMesh& mesh, cut::Simulation& simulation) const;
 
  private:
   static constexpr std::uint32_t none = 0xffffffffu;
   std::vector<std::uint32_t> anchor_of_;  ///< per node of the uncut mesh
   bool any_moves_ = false;
-  double longest_way_ = 0;  ///< in a time step, along x, y or z
 };
 
 }  // namespace snip

@@ -7,6 +7,13 @@
 
 namespace snip {
 
+double longest_way(const Scene& scene, const cut::HybridMesh& mesh) {
+  if (scene.surroundings.longest_way > 0) return scene.surroundings.longest_way;
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : mesh.ancestors.rest_positions) box.extend(p);
+  return box.diagonal().stableNorm();
+}
+
 Keyframe keyframe_at(const std::vector<Keyframe>& keyframes, double time) {
   const auto next =
       std::find_if(keyframes.begin(), keyframes.end(), [&](const Keyframe& k) { return k.at > time; });

@@ -106,6 +106,10 @@ struct Scene {
   [[nodiscard]] double frame_time() const { return time_step * static_cast<double>(steps_per_frame); }
 };
 
+/// What a node, an anchor or an obstacle may go in a time step at most, along x, y or z: what the scene says,
+/// or else the diagonal of the uncut cloth's bounding box. O(nodes).
+double longest_way(const Scene& scene, const cut::HybridMesh& mesh);
+
 /// Between keyframes all changes evenly; before the first it is there, after the last it stays there.
 /// @pre there is a keyframe
 Keyframe keyframe_at(const std::vector<Keyframe>& keyframes, double time);

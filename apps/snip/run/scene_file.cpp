@@ -217,6 +217,7 @@ void read_surroundings(const JsonValue& value, Scene& scene) {
   take(value, "air_drag", scene.surroundings.air_drag, not_negative);
   take(value, "normal_drag", scene.surroundings.normal_drag, not_negative);
   take(value, "wind", scene.surroundings.wind, vector);
+  take(value, "longest_way", scene.surroundings.longest_way, positive);
   take(value, "integrator", scene.surroundings.integrator, [](const JsonValue& v) {
     return std::array{
         cut::Integrator::forward_euler, cut::Integrator::semi_implicit_euler,
@@ -228,8 +229,8 @@ void read_surroundings(const JsonValue& value, Scene& scene) {
 
 void read_scene_object(const JsonValue& value, Scene& scene) {
   value.allow_keys({"description", "cloth", "material", "anchors", "gravity", "air_drag", "normal_drag",
-                    "wind", "obstacles", "integrator", "time_step", "steps_per_frame", "frames", "merge",
-                    "cutters", "output"});
+                    "wind", "longest_way", "obstacles", "integrator", "time_step", "steps_per_frame",
+                    "frames", "merge", "cutters", "output"});
   take(value, "description", scene.description, text);
   scene.cloth = read_mesh_source(value.at("cloth"));
   if (const auto material = value.find("material")) read_material(*material, scene);

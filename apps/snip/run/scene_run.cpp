@@ -122,22 +122,14 @@ Result<> SceneRun::load_cutters(const std::filesystem::path& folder) {
   return {};
 }
 
-/// What a node may go in a time step at most.
-double SceneRun::cloth_diagonal() const {
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& p : mesh_.ancestors.rest_positions) box.extend(p);
-  return box.diagonal().stableNorm();
-}
-
 /// libcut's own check does not know the place in the scene file.
 Result<> SceneRun::check_obstacles() const {
-  const double way = cloth_diagonal();
+  const double way = longest_way(scene_, mesh_);
   const auto check = [&](const auto& obstacles, const std::vector<std::string>& places) -> Result<> {
     for (std::size_t i = 0; i < obstacles.size(); ++i)
       if (!(obstacles[i].velocity.cwiseAbs().maxCoeff() * scene_.time_step <= way))
         return Error{
-            fmt::format("{}: the velocity takes it further in a time step of {} s than the cloth is "
-                        "long, {:.3g}",
+            fmt::format("{}: the velocity takes it further in a time step of {} s than longest_way, {:.3g} m",
                         places[i], scene_.time_step, way)};
     return {};
   };
@@ -233,8 +225,8 @@ std::string SceneRun::explained(const cut::Error& error) const {
   if (!(scene_.time_step > stable))
     return fmt::format(
         "{}: the forces are too large, or it is too fast, for a time step of {} s: it goes "
-        "further in one than the cloth is long, {:.3g}",
-        where, scene_.time_step, cloth_diagonal());
+        "further in one than longest_way, {:.3g} m",
+        where, scene_.time_step, longest_way(scene_, mesh_));
   return fmt::format("{}: the time step of {} s is more than the {:.3g} s up to which it is stable", where,
                      scene_.time_step, stable);
 }

@@ -54,7 +54,6 @@ class SceneRun {
  private:
   SceneRun(Scene scene, Mesh cloth, cut::HybridMesh mesh, cut::Simulation simulation);
   Result<> load_cutters(const std::filesystem::path& folder);
-  [[nodiscard]] double cloth_diagonal() const;
   [[nodiscard]] Result<> check_obstacles() const;
   Result<> take_over(const cut::Result<cut::Changes>& changes, const std::string& name);
   Result<> cut_due(double from, double to);
