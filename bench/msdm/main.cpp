@@ -108,10 +108,10 @@ void speeds() {
   }
 }
 
-/// Speed per spring of a sheet that was cut so often, and of the same sheet uncut.
-void after_cuts(std::size_t cuts) {
-  const std::size_t cells = 99;
-  Simulated fresh(msdm::cloth(cells)), worn(msdm::cloth(cells));
+/// Speed per spring of a cloth that was cut so often, and of the same cloth uncut. Cuts begin anywhere and
+/// are up to three cells long in each direction.
+void after_cuts(const char* name, const cut::HybridMesh& cloth, std::size_t cuts) {
+  Simulated fresh(cloth), worn(cloth);
   cut::Cutter knife(cut::default_merge_distances(worn.mesh));
   std::uint64_t random = 1;
   const auto number = [&](double most) {
@@ -119,18 +119,20 @@ void after_cuts(std::size_t cuts) {
     return static_cast<double>(random >> 40) / static_cast<double>(1 << 24) * most;
   };
   for (std::size_t i = 0; i < cuts; ++i) {
-    const Eigen::Vector3d from{number(cells), number(cells), 0};
+    const auto n = static_cast<std::size_t>(number(static_cast<double>(cloth.positions.size())));
+    const Eigen::Vector3d from = cloth.positions[n] + Eigen::Vector3d(number(1), number(1), 0);
     const Eigen::Vector3d to = from + Eigen::Vector3d(number(6) - 3, number(6) - 3, 0);
     const auto changes = knife.cut(worn.mesh, scenes::ribbon({from, to}, {0.01, 0, 4}));
     if (!changes || worn.simulation.apply(*changes, worn.mesh)) std::abort();
   }
   std::vector<Contender> both{{"fresh", [&] { fresh.step(steps_of_frame); }},
                               {"worn", [&] { worn.step(steps_of_frame); }}};
-  msdm::take_turns(both, 60);
+  msdm::take_turns(both, cloth.positions.size() > 500'000 ? 10 : cloth.positions.size() > 50'000 ? 20 : 60);
   const double per_spring = static_cast<double>(fresh.simulation.spring_count()) /
                             static_cast<double>(worn.simulation.spring_count());
-  std::printf("\nAfter %zu cuts: %zu springs of %zu, %.3f times the time per spring\n", cuts,
-              worn.simulation.spring_count(), fresh.simulation.spring_count(),
+  std::printf("| %s | %zu | %zu | %zu | %zu | %.2f | %.3f |\n", name, cloth.positions.size(), cuts,
+              fresh.simulation.spring_count(), worn.simulation.spring_count(),
+              both[0].least() * 1e6 / static_cast<double>(steps_of_frame * fresh.simulation.spring_count()),
               both[1].least() / both[0].least() * per_spring);
 }
 
@@ -227,7 +229,15 @@ void scene(std::size_t cells, cut::Integrator integrator) {
 
 int main() {
   speeds();
-  for (const std::size_t cuts : {3u, 1000u}) after_cuts(cuts);
+  std::puts(
+      "\n| cloth | nodes | cuts | springs | springs after | ns per spring | after / before |\n"
+      "|---|--:|--:|--:|--:|--:|--:|");
+  after_cuts("rows", msdm::cloth(99), 3);
+  after_cuts("rows", msdm::cloth(99), 1000);
+  after_cuts("rows", msdm::cloth(315), 1000);
+  after_cuts("rows", msdm::cloth(999), 1000);
+  after_cuts("rings", *cut::HybridMesh::build(scenes::hexagon(57)), 1000);
+  after_cuts("rings", *cut::HybridMesh::build(scenes::hexagon(182)), 1000);
   cut_at_once();
   std::puts(
       "\n| triangles | integrator | substeps | frame, ms | 19 of 20 frames, ms | of it cutting | times real "

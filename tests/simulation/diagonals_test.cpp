@@ -42,11 +42,14 @@ State stepped(const cut::Kernels& kernels, const cut::SpringBlocks& blocks, Stat
   cut::ForceWindow window;
   for (const cut::SpringBlock& block : blocks.blocks()) {
     const std::size_t size = block.last - block.first;
-    const cut::ColumnArrays given = cut::ColumnSpace(state.given_columns, 1, size).take();
+    const cut::ColumnArrays given = cut::ColumnSpace(state.given_columns, 1, size + 4).take();
     kernels.to_columns(state.given.data() + block.first, 0, size, given);
+    std::vector<std::uint32_t> fours;  // backwards
+    for (std::size_t i = (size + 3) / 4; i-- > 0;) fours.push_back(static_cast<std::uint32_t>(4 * i));
     if (!at_once) window.close();
     state.sound &= kernels.advance_range(
-        {blocks.diagonals(), block.first, block.last, begun ? &given : nullptr}, update, arrays, window);
+        {blocks.diagonals(), block.first, block.last, begun ? &given : nullptr, fours.data()}, update, arrays,
+        window);
   }
   return state;
 }
@@ -76,8 +79,7 @@ TEST_CASE("The loops over diagonals for AVX2 give the bits of the plain ones") {
     springs.damping.assign(springs.nodes.size(), 0.7);
     std::vector<cut::SpringPlace> places(springs.nodes.size());
     for (std::size_t i = 0; i < springs.nodes.size(); ++i) blocks.set(springs, i, places[i]);
-    for (const cut::SpringBlock& block : blocks.blocks())
-      CHECK(block.inner.nodes.size() + block.outer.nodes.size() == 0);
+    for (const cut::SpringBlock& block : blocks.blocks()) CHECK(block.inner.size() + block.outer.size() == 0);
     State start;
     const auto padded = [&](double size) {
       const Eigen::Vector3d v = testing::random_vector(random, size);

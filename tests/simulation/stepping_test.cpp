@@ -152,7 +152,7 @@ TEST_CASE("Nodes at the same place exert no force on each other") {
 TEST_CASE("The loops for AVX2 give the bits of the plain ones") {
   std::mt19937 random(4);
   const std::size_t nodes = 50, springs = 200;
-  cut::SpringArrays arrays;
+  std::vector<cut::ListedSprings> arrays(springs / 4);
   std::vector<cut::PaddedVector> positions, velocities, forces;
   std::vector<double> inverse_mass;
   const auto padded = [&](double size) {
@@ -168,18 +168,19 @@ TEST_CASE("The loops for AVX2 give the bits of the plain ones") {
   for (std::size_t i = 0; i < springs; ++i) {
     const auto a = static_cast<std::uint32_t>(random() % nodes),
                b = static_cast<std::uint32_t>(random() % nodes);
-    arrays.nodes.push_back(i % 9 == 0 ? std::array<std::uint32_t, 2>{0, 0} : std::array{a, b});
-    arrays.rest_length.push_back(0.5);
-    arrays.stiffness.push_back(i % 9 == 0 ? 0 : 3);
-    arrays.damping.push_back(i % 9 == 0 ? 0 : 0.7);
+    cut::ListedSprings& four = arrays[i / 4];
+    four.nodes[i % 4] = i % 9 == 0 ? std::array<std::uint32_t, 2>{0, 0} : std::array{a, b};
+    four.springs.rest_length[i % 4] = 0.5;
+    four.springs.stiffness[i % 4] = i % 9 == 0 ? 0 : 3;
+    four.springs.damping[i % 4] = i % 9 == 0 ? 0 : 0.7;
   }
   const auto run = [&](const cut::Kernels& kernels, double limit, bool old_first) {
     auto p = positions;
     auto v = velocities;
     auto f = forces;
     auto next = positions;
-    std::vector<std::uint32_t> others(nodes / 2);
-    std::iota(others.rbegin(), others.rend(), static_cast<std::uint32_t>(nodes / 2));
+    std::vector<cut::SlottedNode> others;
+    for (auto slot = static_cast<std::uint32_t>(nodes); slot-- > nodes / 2;) others.push_back({7, slot});
     const cut::VelocityUpdate update{0.01, {0.1, 0, -9.81, 0}, 0.3, limit, old_first};
     bool sound = true;
     for (int i = 0; i < 50 && sound; ++i) {
@@ -190,7 +191,7 @@ TEST_CASE("The loops for AVX2 give the bits of the plain ones") {
       arrays_of_nodes.velocities = v.data();
       arrays_of_nodes.forces = f.data();
       arrays_of_nodes.next_positions = next.data();
-      arrays_of_nodes.inverse_mass = inverse_mass.data();
+      arrays_of_nodes.inverse_mass_at_slots = inverse_mass.data();
       arrays_of_nodes.moves = i % 2 == 0;
       sound = kernels.advance_nodes(update, arrays_of_nodes, 0, nodes / 2, others);
       if (arrays_of_nodes.moves)

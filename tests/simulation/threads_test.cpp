@@ -58,19 +58,38 @@ Pulls pulls_of(const cut::SpringBlocks& blocks) {
       pulls[a].emplace_back(b, stiffness);
       pulls[b].emplace_back(a, stiffness);
     }
+  const std::vector<std::uint32_t>& node_at = blocks.slots();
+  std::vector<const cut::SpringBlock*> owners(node_at.size(), nullptr);  // who writes there
   for (const cut::SpringBlock& block : blocks.blocks()) {
-    const auto node = [&](std::uint32_t name) {
-      return blocks.diagonals().empty() ? name : block.placed[name % 2].nodes()[name / 2];
+    const auto own = [&](std::uint32_t slot) {
+      CHECK(owners[slot] == nullptr);
+      owners[slot] = &block;
     };
-    REQUIRE(block.copy_places.size() == (blocks.diagonals().empty() ? 0 : block.copies.size()));
-    for (std::size_t i = 0; i < block.copy_places.size(); ++i)
-      CHECK(node(2 * block.copy_places[i] + 1) == block.copies[i] + blocks.nodes_in_diagonals());
+    if (!blocks.diagonals().empty()) own(block.nobody);
+    for (const cut::SlottedNode& copy : block.copies) {
+      own(copy.slot);
+      CHECK(node_at[copy.slot] == copy.node);
+      CHECK(blocks.slot(copy.node) == copy.slot);
+    }
+    for (const cut::SlottedNode& held : block.held.nodes()) {
+      own(held.slot);
+      CHECK(node_at[held.slot] == held.node);
+    }
+    if (blocks.diagonals().empty())
+      for (std::uint32_t n = block.first; n < block.last; ++n) own(n);
     for (const auto* list : {&block.inner, &block.outer})
-      for (std::size_t i = 0; i < list->nodes.size(); ++i) {
-        if (list->nodes[i][0] == list->nodes[i][1]) continue;
-        const std::uint32_t a = node(list->nodes[i][0]), b = node(list->nodes[i][1]);
-        pulls[a].emplace_back(b, list->stiffness[i]);
-        if (list == &block.inner) pulls[b].emplace_back(a, list->stiffness[i]);
+      for (std::size_t i = 0; i < 4 * list->size(); ++i) {
+        const auto slots = (*list)[i / 4].nodes[i % 4];
+        const double stiffness = (*list)[i / 4].springs.stiffness[i % 4];
+        CHECK(owners[slots[0]] == &block);
+        if (slots[0] == slots[1]) {
+          CHECK(stiffness == 0);
+          continue;
+        }
+        if (list == &block.inner) CHECK(owners[slots[1]] == &block);
+        const std::uint32_t a = node_at[slots[0]], b = node_at[slots[1]];
+        pulls[a].emplace_back(b, stiffness);
+        if (list == &block.inner) pulls[b].emplace_back(a, stiffness);
       }
   }
   for (auto& list : pulls) std::sort(list.begin(), list.end());

@@ -211,6 +211,7 @@ class Simulation {
   /// x, y and z each in an array of its own, for the others vectors.
   std::vector<CacheLine> columns_;
   std::vector<PaddedVector> vectors_;
+  std::vector<double> inverse_mass_at_slots_;
 
   SpringArrays springs_;             ///< per spring of the mesh, padded to a multiple of 4 with free entries
   std::vector<SpringPlace> places_;  ///< per entry of `springs_`

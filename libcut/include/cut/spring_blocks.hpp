@@ -14,8 +14,7 @@
 
 namespace cut {
 
-/// Springs in flat arrays. Entries that are not in use join a node to itself with k = c = 0, so that they
-/// make no force and need no branch.
+/// Springs in flat arrays. Entries that are not in use join a node to itself with k = c = 0.
 struct SpringArrays {
   std::vector<std::array<std::uint32_t, 2>> nodes;
   std::vector<double> rest_length;
@@ -29,6 +28,13 @@ struct alignas(32) FourSprings {
   std::array<double, 4> rest_length{}, stiffness{}, damping{};
 };
 
+/// Four springs of a list, by the slots of their nodes. Entries that are not in use join a slot to itself
+/// with k = c = 0, so that they make no force and need no branch.
+struct alignas(64) ListedSprings {
+  std::array<std::array<std::uint32_t, 2>, 4> nodes{};
+  FourSprings springs;
+};
+
 /// Springs from node i to node i + offset, for each i: a sheet whose nodes are numbered row by row is three
 /// of these. Entries that are not in use have k = c = 0.
 struct SpringDiagonal {
@@ -37,32 +43,44 @@ struct SpringDiagonal {
   std::vector<std::uint8_t> used;  ///< per spring
 };
 
-/// Nodes that have a place each in arrays of their own, in which a step finds them side by side.
-class PlacedNodes {
- public:
-  /// The place of a node, which is held once more. O(1) expected.
-  std::uint32_t hold(std::uint32_t node);
-  /// Who no longer needs the node at this place says so. O(1) expected.
-  void let_go(std::uint32_t place);
+/// Springs in lists find their nodes as vectors, by slot: a node that is not in columns has one slot, and one
+/// in columns has one in each block whose lists name it, to which a step copies it. What a cut needs gets
+/// slots in a row, so that a step finds it side by side.
+struct SlottedNode {
+  std::uint32_t node, slot;
+};
 
-  /// By place; where nobody holds a node is one that somebody has held.
-  [[nodiscard]] const std::vector<std::uint32_t>& nodes() const { return nodes_; }
+/// Nodes in columns that the lists of a block name.
+class HeldNodes {
+ public:
+  /// The slot of a node, which is held once more; a new one is `next_slot`. O(1) expected.
+  std::uint32_t hold(std::uint32_t node, std::uint32_t next_slot);
+  /// Who no longer needs the node says so. O(1) expected.
+  void let_go(std::uint32_t node);
+
+  /// Where nobody holds a node is one that somebody has held.
+  [[nodiscard]] const std::vector<SlottedNode>& nodes() const { return nodes_; }
 
  private:
-  std::vector<std::uint32_t> nodes_, holders_, free_;
-  std::unordered_map<std::uint32_t, std::uint32_t> places_;
+  std::vector<SlottedNode> nodes_;
+  std::vector<std::uint32_t> holders_, free_;
+  std::unordered_map<std::uint32_t, std::uint32_t> entries_;
 };
 
 struct SpringBlock {
   std::uint32_t first = 0, last = 0;  ///< its nodes: from `first`, a multiple of 4, to before `last`, ...
-  std::vector<std::uint32_t> copies;  ///< ... and what cuts have made of these, less nodes_in_diagonals()
-  SpringArrays inner;                 ///< springs that are not in diagonals: with both ends in the block, ...
-  SpringArrays outer;                 ///< ... and with nodes[0] in the block and nodes[1] in another
+  std::vector<SlottedNode> copies;    ///< ... and what cuts have made of these
+  /// Springs that are not in diagonals: with both ends in the block, ...
+  std::vector<ListedSprings> inner;
+  std::vector<ListedSprings> outer;  ///< ... and with nodes[0] in the block and nodes[1] in another
   std::vector<std::uint32_t> free_inner, free_outer;  ///< entries that are not in use
-  /// Where there are diagonals, the lists name node placed[k].nodes()[p] as 2 p + k. k is 1 for copies, since
-  /// a step finds these elsewhere; all those of the block have a place.
-  std::array<PlacedNodes, 2> placed;
-  std::vector<std::uint32_t> copy_places;
+  HeldNodes held;
+  /// Forces of lists on nodes in columns are summed up in columns of their own, four entries for four nodes
+  /// that may need them: the first of these entries, per four nodes of the block; 0 for four that always are
+  /// zero. Then once more for nodes of other blocks, of which nothing is wanted.
+  std::vector<std::uint32_t> list_forces;
+  std::uint32_t list_force_entries = 0;  ///< how many there are
+  std::uint32_t nobody = 0;  ///< slot of the block that entries join to itself that are not in use
 };
 
 /// Where a spring is: in a diagonal, or in the list of one block or of each of two, or nowhere.
@@ -100,17 +118,24 @@ class SpringBlocks {
   /// No spring joins two blocks with others between them.
   [[nodiscard]] bool neighbours_only() const { return far_springs_ == 0; }
   [[nodiscard]] std::size_t node_count() const { return block_of_.size(); }
+  /// Per slot: its node. Where there are diagonals, slot b is no node's but `nobody` of block b; otherwise
+  /// slots are nodes.
+  [[nodiscard]] const std::vector<std::uint32_t>& slots() const { return node_at_; }
+  /// Of a node that is not in columns.
+  [[nodiscard]] std::uint32_t slot(std::size_t node) const { return slot_of_[node - nodes_in_diagonals()]; }
 
  private:
   [[nodiscard]] SpringPlace place_for(std::array<std::uint32_t, 2> nodes, const SpringPlace& old) const;
   void leave(const SpringPlace& place);
   void enter(SpringPlace& place);
-  void name_nodes(SpringBlock& block, std::array<std::uint32_t, 2>& entry, std::uint32_t a,
-                  std::uint32_t b) const;
+  void join(SpringBlock& block, std::array<std::uint32_t, 2>& entry, std::uint32_t a, std::uint32_t b);
+  void let_go(SpringBlock& block, std::array<std::uint32_t, 2>& entry);
 
   std::vector<SpringDiagonal> diagonals_;
   std::vector<SpringBlock> blocks_;
   std::vector<std::uint32_t> block_of_;  ///< per node
+  std::vector<std::uint32_t> slot_of_;   ///< per node that is not in columns
+  std::vector<std::uint32_t> node_at_;   ///< per slot
   std::size_t uncut_nodes_ = 0;
   std::size_t far_springs_ = 0;  ///< springs in lists that join blocks with others between them
 };

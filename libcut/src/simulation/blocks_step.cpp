@@ -1,6 +1,6 @@
 // The nodes of all blocks go through one or several steps. In and out: positions and velocities in the arrays
-// of kernels.hpp. Springs in diagonals are gone through in columns; for the other ones a block puts the nodes
-// that these join side by side, a few of many.
+// of kernels.hpp. Springs in diagonals are gone through in columns; for the other ones a block copies the
+// nodes that these join to their slots, a few of many.
 #include <algorithm>
 
 #include "cut/simulation.hpp"
@@ -15,87 +15,65 @@ namespace {
 
 using Vectors = std::vector<PaddedVector>;
 
-/// Of the nodes that have a place in a block, by the names that its lists have for them.
-struct PlacedArrays {
-  Vectors positions, velocities, forces;
-  std::vector<CacheLine> sums;
-
-  void gather(const SpringBlock& block, const NodeArrays& nodes) {
-    const auto &uncut = block.placed[0].nodes(), &copies = block.placed[1].nodes();
-    const std::size_t size = 2 * std::max(uncut.size(), copies.size());
-    if (forces.size() < size)
-      for (Vectors* vectors : {&positions, &velocities, &forces}) vectors->resize(size);
-    best_kernels().gather(uncut, nodes.position_columns, positions.data());
-    best_kernels().gather(uncut, nodes.velocity_columns, velocities.data());
-    for (std::size_t i = 0; i < copies.size(); ++i) {
-      positions[2 * i + 1] = nodes.positions[copies[i] - nodes.in_columns];
-      velocities[2 * i + 1] = nodes.velocities[copies[i] - nodes.in_columns];
-    }
-    std::fill_n(forces.begin(), size, PaddedVector{});
-  }
-};
-
-/// What acts on a node beside its springs.
-PaddedVector at(const Vectors& given, std::size_t node) {
-  return given.empty() ? PaddedVector{} : given[node];
-}
-
-bool advance_in_vectors(const SpringBlock& block, const VelocityUpdate* update, const Vectors& given,
-                        const NodeArrays& nodes) {
+/// What the springs of a block's lists and what is given do to its nodes at slots [first, last) and to its
+/// copies; the next velocities of these. To nodes in columns: the forces at their slots.
+bool advance_in_vectors(const SpringBlock& block, std::size_t first, std::size_t last,
+                        const VelocityUpdate* update, const Vectors& given, const NodeArrays& nodes) {
   const Kernels& kernels = best_kernels();
-  if (given.empty())
-    std::fill(nodes.forces + block.first, nodes.forces + block.last, PaddedVector{});
-  else
-    std::copy(given.data() + block.first, given.data() + block.last, nodes.forces + block.first);
-  for (const std::uint32_t copy : block.copies) nodes.forces[copy] = at(given, copy);
+  if (given.empty()) {
+    std::fill(nodes.forces + first, nodes.forces + last, PaddedVector{});
+    for (const SlottedNode& copy : block.copies) nodes.forces[copy.slot] = {};
+  } else {
+    std::copy(given.data() + first, given.data() + last, nodes.forces + first);
+    for (const SlottedNode& copy : block.copies) nodes.forces[copy.slot] = given[copy.node];
+  }
   kernels.add_spring_forces(block.inner, nodes.positions, nodes.velocities, nodes.forces);
   kernels.add_forces_at_first_node(block.outer, nodes.positions, nodes.velocities, nodes.forces);
-  return update == nullptr || kernels.advance_nodes(*update, nodes, block.first, block.last, block.copies);
+  return update == nullptr || kernels.advance_nodes(*update, nodes, first, last, block.copies);
 }
 
-/// Adds to `sums` the forces of springs in lists on nodes of the block, the first of which comes first, and
-/// moves on its copies.
-bool advance_placed(const SpringBlock& block, const VelocityUpdate* update, const Vectors& given,
-                    const NodeArrays& nodes, PlacedArrays& placed, const ColumnArrays& sums) {
-  placed.gather(block, nodes);
-  const Kernels& kernels = best_kernels();
-  kernels.add_spring_forces(block.inner, placed.positions.data(), placed.velocities.data(),
-                            placed.forces.data());
-  kernels.add_forces_at_first_node(block.outer, placed.positions.data(), placed.velocities.data(),
-                                   placed.forces.data());
-  const std::vector<std::uint32_t>& uncut = block.placed[0].nodes();
-  for (std::size_t i = 0; i < uncut.size(); ++i) {
-    // What another block has goes to an entry that is not read.
-    const std::uint32_t n = std::min(uncut[i] - block.first, block.last - block.first);
-    const PaddedVector& force = placed.forces[2 * i];
-    sums[0][n] += force.x;
-    sums[1][n] += force.y;
-    sums[2][n] += force.z;
+/// Forces beside those of diagonals on the nodes of a block. What lists add has room only where they add
+/// something: one cut is to cost what it touches, not a pass over the block.
+class OtherForces {
+ public:
+  /// Those of all nodes.
+  void give(const Vectors& given, NodeRange& range) {
+    const std::size_t size = range.last - range.first;
+    sums_ = ColumnSpace(space_, 1, size + 8).take();
+    best_kernels().to_columns(given.data() + range.first, 0, size, sums_);
+    while (4 * all_.size() < size + 8) all_.push_back(static_cast<std::uint32_t>(4 * all_.size()));
+    range.given = &sums_;
+    range.fours = all_.data();
   }
-  for (std::size_t i = 0; i < block.copies.size(); ++i) {
-    const std::size_t copy = block.copies[i];
-    nodes.forces[copy] = at(given, nodes.in_columns + copy) + placed.forces[2 * block.copy_places[i] + 1];
+  /// None yet of what lists will add.
+  void make_room(const SpringBlock& block, NodeRange& range) {
+    sums_ = ColumnSpace(space_, 1, block.list_force_entries).take();
+    for (double* column : sums_) std::fill_n(column, block.list_force_entries, 0.0);
+    range.given = &sums_;
+    range.fours = block.list_forces.data();
   }
-  return update == nullptr || kernels.advance_nodes(*update, nodes, 0, 0, block.copies);
-}
+
+ private:
+  std::vector<CacheLine> space_;
+  ColumnArrays sums_{};
+  std::vector<std::uint32_t> all_;
+};
 
 bool advance_in_columns(const SpringBlock& block, std::span<const SpringDiagonal> diagonals,
                         const VelocityUpdate* update, const Vectors& given, const NodeArrays& nodes,
                         ForceWindow& window) {
-  SNIP_PER_THREAD PlacedArrays placed;
-  const bool lists = !block.placed[0].nodes().empty() || !block.placed[1].nodes().empty();
-  NodeRange range{diagonals, block.first, block.last, nullptr};
-  ColumnArrays sums{};
+  SNIP_PER_THREAD OtherForces others;
+  const std::vector<SlottedNode>& held = block.held.nodes();
+  NodeRange range{diagonals, block.first, block.last, nullptr, nullptr};
   bool sound = true;
-  if (lists || !given.empty()) {
-    const std::size_t size = range.last - range.first;
-    sums = ColumnSpace(placed.sums, 1, size + 1).take();
-    if (given.empty())
-      for (double* column : sums) std::fill_n(column, size, 0.0);
-    else
-      best_kernels().to_columns(given.data() + range.first, 0, size, sums);
-    if (lists) sound = advance_placed(block, update, given, nodes, placed, sums);
-    range.given = &sums;
+  if (!given.empty())
+    others.give(given, range);
+  else if (!held.empty())
+    others.make_room(block, range);
+  if (!held.empty() || !block.copies.empty()) {
+    best_kernels().gather(held, nodes);
+    sound = advance_in_vectors(block, 0, 0, update, given, nodes);
+    if (!held.empty()) best_kernels().scatter(held, nodes.forces, range);
   }
   return best_kernels().advance_range(range, update, nodes, window) && sound;
 }
@@ -106,32 +84,22 @@ std::vector<ForceWindow>& own_windows() {
   return windows;
 }
 
-/// Calls columns(first, last) and vectors(first, last) for nodes [first, last).
+/// Calls columns(first, last) for those of nodes [first, last) that are in columns, and vector(node, slot)
+/// for each other one.
 template <class InColumns, class InVectors>
-void split(const NodeArrays& nodes, std::size_t first, std::size_t last, const InColumns& columns,
-           const InVectors& vectors) {
-  if (first < nodes.in_columns) columns(first, std::min(last, nodes.in_columns));
-  if (last > nodes.in_columns) vectors(std::max(first, nodes.in_columns), last);
+void split(const SpringBlocks& blocks, std::size_t first, std::size_t last, const InColumns& columns,
+           const InVectors& vector) {
+  const std::size_t in_columns = blocks.nodes_in_diagonals();
+  if (first < in_columns) columns(first, std::min(last, in_columns));
+  for (std::size_t n = std::max(first, in_columns); n < last; ++n) vector(n, blocks.slot(n));
 }
 
-void put(const Vectors& from, const NodeArrays& nodes, std::size_t first, std::size_t last,
-         const ColumnArrays& columns, PaddedVector* vectors) {
-  split(
-      nodes, first, last,
-      [&](std::size_t a, std::size_t b) { best_kernels().to_columns(from.data(), a, b, columns); },
-      [&](std::size_t a, std::size_t b) {
-        std::copy(from.data() + a, from.data() + b, vectors + (a - nodes.in_columns));
-      });
-}
-
-void take(const ColumnArrays& columns, const PaddedVector* vectors, const NodeArrays& nodes,
+void take(const ColumnArrays& columns, const PaddedVector* vectors, const SpringBlocks& blocks,
           std::size_t first, std::size_t last, Vectors& to) {
   split(
-      nodes, first, last,
+      blocks, first, last,
       [&](std::size_t a, std::size_t b) { best_kernels().from_columns(columns, a, b, to.data()); },
-      [&](std::size_t a, std::size_t b) {
-        std::copy(vectors + (a - nodes.in_columns), vectors + (b - nodes.in_columns), to.data() + a);
-      });
+      [&](std::size_t n, std::size_t slot) { to[n] = vectors[slot]; });
 }
 
 }  // namespace
@@ -142,13 +110,18 @@ NodeArrays Simulation::node_arrays(bool moves) {
   nodes.moves = moves;
   nodes.inverse_mass = inverse_mass_.data();
   nodes.in_columns = blocks_.nodes_in_diagonals();
-  const std::size_t in_vectors = positions_.size() - nodes.in_columns;
-  vectors_.resize(4 * in_vectors);
+  const std::size_t slots = blocks_.slots().size();
+  vectors_.resize(4 * slots);
+  inverse_mass_at_slots_.resize(slots);
+  nodes.inverse_mass_at_slots = inverse_mass_at_slots_.data();
   nodes.positions = vectors_.data();
-  nodes.velocities = nodes.positions + in_vectors;
-  nodes.forces = nodes.velocities + in_vectors;
-  nodes.next_positions = nodes.forces + in_vectors;
+  nodes.velocities = nodes.positions + slots;
+  nodes.forces = nodes.velocities + slots;
+  nodes.next_positions = nodes.forces + slots;
   if (nodes.in_columns == 0) return nodes;
+  for (const SpringBlock& block : blocks_.blocks())
+    for (PaddedVector* vectors : {nodes.positions, nodes.velocities, nodes.forces, nodes.next_positions})
+      vectors[block.nobody] = {};
   const std::size_t reach = reach_of(blocks_.diagonals());
   ColumnSpace space(columns_, 4, nodes.in_columns + reach);
   for (ColumnArrays* columns : {&nodes.position_columns, &nodes.next_position_columns,
@@ -162,23 +135,32 @@ NodeArrays Simulation::node_arrays(bool moves) {
 /// Copies positions and velocities to where steps go on from them.
 void Simulation::load(const NodeArrays& nodes) const {
   for_each_run([&](std::size_t first, std::size_t last) {
-    put(positions_, nodes, first, last, nodes.position_columns, nodes.positions);
-    put(velocities_, nodes, first, last, nodes.velocity_columns, nodes.velocities);
+    split(
+        blocks_, first, last,
+        [&](std::size_t a, std::size_t b) {
+          best_kernels().to_columns(positions_.data(), a, b, nodes.position_columns);
+          best_kernels().to_columns(velocities_.data(), a, b, nodes.velocity_columns);
+        },
+        [&](std::size_t n, std::size_t slot) {
+          nodes.positions[slot] = positions_[n];
+          nodes.velocities[slot] = velocities_[n];
+          nodes.inverse_mass_at_slots[slot] = inverse_mass_[n];
+        });
   });
 }
 
 /// Copies them back.
 void Simulation::store(const NodeArrays& nodes) {
   for_each_run([&](std::size_t first, std::size_t last) {
-    take(nodes.position_columns, nodes.positions, nodes, first, last, positions_);
-    take(nodes.velocity_columns, nodes.velocities, nodes, first, last, velocities_);
+    take(nodes.position_columns, nodes.positions, blocks_, first, last, positions_);
+    take(nodes.velocity_columns, nodes.velocities, blocks_, first, last, velocities_);
   });
 }
 
 /// Copies the next velocities to `forces_`.
 void Simulation::take_next_velocities(const NodeArrays& nodes) {
   for_each_run([&](std::size_t first, std::size_t last) {
-    take(nodes.next_velocity_columns, nodes.forces, nodes, first, last, forces_);
+    take(nodes.next_velocity_columns, nodes.forces, blocks_, first, last, forces_);
   });
 }
 
@@ -204,15 +186,17 @@ bool Simulation::go_through_blocks(const VelocityUpdate* update, const NodeArray
   std::fill(sound_.begin(), sound_.end(), 1);
   const std::size_t kept = blocks.size() == 1 ? 1 : steps;
   const auto begin = [&] {
+    if (diagonals.empty()) return;
     std::vector<ForceWindow>& windows = own_windows();
     if (windows.size() < kept) windows.resize(kept);
     for (ForceWindow& window : windows) window.close();
   };
   const auto advance = [&](std::size_t step, std::size_t b) {
     const NodeArrays& now = arrays[step % 2];
-    const bool sound = diagonals.empty() ? advance_in_vectors(blocks[b], update, given, now)
-                                         : advance_in_columns(blocks[b], diagonals, update, given, now,
-                                                              own_windows()[step % kept]);
+    const bool sound =
+        diagonals.empty()
+            ? advance_in_vectors(blocks[b], blocks[b].first, blocks[b].last, update, given, now)
+            : advance_in_columns(blocks[b], diagonals, update, given, now, own_windows()[step % kept]);
     if (!sound) sound_[b] = 0;
   };
   go_in_trapezoids(executor, blocks.size(), steps, begin, advance);

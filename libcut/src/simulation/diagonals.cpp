@@ -36,7 +36,8 @@ struct Loops {
           const double both = f[i + forces.starting] - f[i + forces.ending[d]];
           force = d == 0 ? both : force + both;
         }
-        if (range.given != nullptr) force = (*range.given)[k][n - range.first] + force;
+        if (range.given != nullptr)
+          force = (*range.given)[k][range.fours[(n - range.first) / 4] + n % 4] + force;
         double& next = nodes.next_velocity_columns[k][n];
         if (update == nullptr) {
           next = force;

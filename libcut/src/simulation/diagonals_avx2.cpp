@@ -46,15 +46,14 @@ struct Loops {
     for (std::size_t k = 0; k < 3; ++k) {
       // Sheets without and with bending springs.
       const auto component = forces.count == 3 ? finish<3> : forces.count == 6 ? finish<6> : finish<0>;
-      const double* const given = range.given != nullptr ? (*range.given)[k] + (from - range.first) : nullptr;
-      sound &= component(*update, acceleration[k], given, from, fours, k, forces, nodes);
+      sound &= component(*update, acceleration[k], range, from, fours, k, forces, nodes);
     }
     return (fours == to || finish_portable(range, update, fours, to, forces, nodes)) && sound;
   }
 
-  /// One component. @tparam Count  of diagonals; 0 for any  @param given  of node `from`, or null
+  /// One component. @tparam Count  of diagonals; 0 for any
   template <std::size_t Count>
-  SNIP_AVX2 static bool finish(const VelocityUpdate& update, double acceleration, const double* given,
+  SNIP_AVX2 static bool finish(const VelocityUpdate& update, double acceleration, const NodeRange& range,
                                std::size_t from, std::size_t to, std::size_t component,
                                const BlockForces& forces, const NodeArrays& nodes) {
     const __m256d time_step = _mm256_set1_pd(update.time_step), drag = _mm256_set1_pd(update.drag),
@@ -70,12 +69,14 @@ struct Loops {
       out[k] = forces.columns[k][component] + forces.starting;
       in[k] = forces.columns[k][component] + forces.ending[k];
     }
+    const double* const given = range.given != nullptr ? (*range.given)[component] : nullptr;
+    const std::uint32_t* four = range.fours + (given != nullptr ? (from - range.first) / 4 : 0);
     __m256d sound = _mm256_castsi256_pd(_mm256_set1_epi64x(-1));
     for (std::size_t n = from; n < to; n += 4) {
       __m256d force = _mm256_sub_pd(_mm256_loadu_pd(out[0] + n), _mm256_loadu_pd(in[0] + n));
       for (std::size_t k = 1; k < count; ++k)
         force = _mm256_add_pd(force, _mm256_sub_pd(_mm256_loadu_pd(out[k] + n), _mm256_loadu_pd(in[k] + n)));
-      if (given != nullptr) force = _mm256_add_pd(_mm256_loadu_pd(given + (n - from)), force);
+      if (given != nullptr) force = _mm256_add_pd(_mm256_loadu_pd(given + *four++), force);
       const __m256d inverse = _mm256_loadu_pd(inverse_mass + n), old = _mm256_loadu_pd(v + n);
       const __m256d free = _mm256_cmp_pd(inverse, _mm256_setzero_pd(), _CMP_GT_OQ);
       const __m256d a =

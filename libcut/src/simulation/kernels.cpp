@@ -1,6 +1,7 @@
 // The loops of one step in plain C++. In and out: the padded arrays of Simulation::step.
 #include "simulation/kernels.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "simulation/diagonals.hpp"
@@ -9,17 +10,18 @@ namespace cut {
 namespace {
 
 template <bool BothNodes>
-void add_spring_forces(const SpringArrays& springs, const PaddedVector* positions,
+void add_spring_forces(std::span<const ListedSprings> springs, const PaddedVector* positions,
                        const PaddedVector* velocities, PaddedVector* forces) {
-  for (std::size_t i = 0; i < springs.nodes.size(); ++i) {
-    const auto [a, b] = springs.nodes[i];
+  for (std::size_t i = 0; i < 4 * springs.size(); ++i) {
+    const auto [a, b] = springs[i / 4].nodes[i % 4];
+    const FourSprings& four = springs[i / 4].springs;
     const PaddedVector& pa = positions[a];
     const PaddedVector& pb = positions[b];
     const PaddedVector& va = velocities[a];
     const PaddedVector& vb = velocities[b];
     const std::array<double, 3> d{pb.x - pa.x, pb.y - pa.y, pb.z - pa.z};
-    const double scale = force_per_length(d, {vb.x - va.x, vb.y - va.y, vb.z - va.z}, springs.rest_length[i],
-                                          springs.stiffness[i], springs.damping[i]);
+    const double scale = force_per_length(d, {vb.x - va.x, vb.y - va.y, vb.z - va.z}, four.rest_length[i % 4],
+                                          four.stiffness[i % 4], four.damping[i % 4]);
     const double fx = d[0] * scale, fy = d[1] * scale, fz = d[2] * scale;
     forces[a].x += fx;
     forces[a].y += fy;
@@ -32,8 +34,8 @@ void add_spring_forces(const SpringArrays& springs, const PaddedVector* position
 }
 
 bool advance_nodes(const VelocityUpdate& update, const NodeArrays& nodes, std::size_t first, std::size_t last,
-                   std::span<const std::uint32_t> others) {
-  const double* const inverse_mass = nodes.inverse_mass + nodes.in_columns;
+                   std::span<const SlottedNode> others) {
+  const double* const inverse_mass = nodes.inverse_mass_at_slots;
   bool sound = true;
   const auto advance = [&](std::size_t n) {
     const auto component = [&](double PaddedVector::* c) {
@@ -49,7 +51,7 @@ bool advance_nodes(const VelocityUpdate& update, const NodeArrays& nodes, std::s
     component(&PaddedVector::z);
   };
   for (std::size_t n = first; n < last; ++n) advance(n);
-  for (const std::uint32_t n : others) advance(n);
+  for (const SlottedNode& n : others) advance(n.slot);
   return sound;
 }
 
@@ -74,10 +76,23 @@ void from_columns(const ColumnArrays& columns, std::size_t first, std::size_t la
   for (std::size_t n = first; n < last; ++n) to[n] = {columns[0][n], columns[1][n], columns[2][n], 0};
 }
 
-void gather(std::span<const std::uint32_t> entries, const ColumnArrays& columns, PaddedVector* to) {
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    const std::size_t n = entries[i];
-    to[2 * i] = {columns[0][n], columns[1][n], columns[2][n], 0};
+void gather(std::span<const SlottedNode> held, const NodeArrays& nodes) {
+  const ColumnArrays &p = nodes.position_columns, &v = nodes.velocity_columns;
+  for (const auto [n, slot] : held) {
+    nodes.positions[slot] = {p[0][n], p[1][n], p[2][n], 0};
+    nodes.velocities[slot] = {v[0][n], v[1][n], v[2][n], 0};
+    nodes.forces[slot] = {};
+  }
+}
+
+void scatter(std::span<const SlottedNode> held, const PaddedVector* forces, const NodeRange& range) {
+  const ColumnArrays& sums = *range.given;
+  const std::size_t size = (range.last - range.first + 3) / 4 * 4;
+  for (const auto [node, slot] : held) {
+    const std::size_t n = std::min(node - range.first, size), entry = range.fours[n / 4] + n % 4;
+    sums[0][entry] += forces[slot].x;
+    sums[1][entry] += forces[slot].y;
+    sums[2][entry] += forces[slot].z;
   }
 }
 
@@ -91,7 +106,8 @@ const Kernels& portable_kernels() {
                                    advance_range_portable,
                                    to_columns,
                                    from_columns,
-                                   gather};
+                                   gather,
+                                   scatter};
   return kernels;
 }
 

@@ -31,8 +31,8 @@ struct VelocityUpdate {
 /// x, y and z of nodes in an array each.
 using ColumnArrays = std::array<double*, 3>;
 
-/// What a step goes through: columns of the first nodes, whose springs can stand in diagonals, and vectors of
-/// the others.
+/// What a step goes through: columns of the first nodes, whose springs can stand in diagonals, and vectors by
+/// slot of the others and of what lists name.
 struct NodeArrays {
   std::size_t in_columns;
   ColumnArrays position_columns, velocity_columns, next_position_columns, next_velocity_columns;
@@ -40,8 +40,9 @@ struct NodeArrays {
   PaddedVector* velocities;
   PaddedVector* forces;  ///< become the next velocities
   PaddedVector* next_positions;
-  const double* inverse_mass;  ///< of all nodes
-  bool moves;                  ///< whether next positions are wanted
+  const double* inverse_mass;     ///< of nodes in columns
+  double* inverse_mass_at_slots;  ///< of the others
+  bool moves;                     ///< whether next positions are wanted
 
   /// What is next becomes what is.
   void step_on() {
@@ -56,8 +57,9 @@ struct NodeArrays {
 /// Nodes next to each other whose springs stand in diagonals.
 struct NodeRange {
   std::span<const SpringDiagonal> diagonals;
-  std::size_t first, last;    ///< from a multiple of 4 to before any number
-  const ColumnArrays* given;  ///< other forces, that of node `first` first; or null
+  std::size_t first, last;     ///< from a multiple of 4 to before any number
+  const ColumnArrays* given;   ///< other forces; or null
+  const std::uint32_t* fours;  ///< where in `given` those of four nodes begin, from node `first` on
 };
 
 class ForceWindow;
@@ -80,18 +82,17 @@ inline double force_per_length(const std::array<double, 3>& d, const std::array<
 }
 
 struct Kernels {
-  /// Equations 1 to 3: adds the forces of springs and dampers to `forces`. Springs in order of index; their
-  /// number is a multiple of 4.
-  void (*add_spring_forces)(const SpringArrays& springs, const PaddedVector* positions,
+  /// Equations 1 to 3: adds the forces of springs and dampers to `forces`, in their order.
+  void (*add_spring_forces)(std::span<const ListedSprings> springs, const PaddedVector* positions,
                             const PaddedVector* velocities, PaddedVector* forces);
   /// The same for the first node of each spring only.
-  void (*add_forces_at_first_node)(const SpringArrays& springs, const PaddedVector* positions,
+  void (*add_forces_at_first_node)(std::span<const ListedSprings> springs, const PaddedVector* positions,
                                    const PaddedVector* velocities, PaddedVector* forces);
-  /// Equations 4 to 6 for vectors [first, last) and then for others: replaces each force by the node's next
+  /// Equations 4 to 6 for slots [first, last) and then for others: replaces each force by the node's next
   /// velocity, and finds next positions if they are wanted. Returns whether all velocities are within the
   /// speed limit, which none that is NaN or infinite is.
   bool (*advance_nodes)(const VelocityUpdate& update, const NodeArrays& nodes, std::size_t first,
-                        std::size_t last, std::span<const std::uint32_t> others);
+                        std::size_t last, std::span<const SlottedNode> others);
   /// Equation 6: from `positions` to `moved`, which may be the same.
   void (*move)(double time_step, std::span<const PaddedVector> positions, const PaddedVector* velocities,
                PaddedVector* moved);
@@ -103,8 +104,11 @@ struct Kernels {
   void (*to_columns)(const PaddedVector* vectors, std::size_t first, std::size_t last,
                      const ColumnArrays& to);
   void (*from_columns)(const ColumnArrays& columns, std::size_t first, std::size_t last, PaddedVector* to);
-  /// The vectors in these entries of columns, to every other one of `to`.
-  void (*gather)(std::span<const std::uint32_t> entries, const ColumnArrays& columns, PaddedVector* to);
+  /// Copies position and velocity of nodes in columns to their slots, where no force acts yet.
+  void (*gather)(std::span<const SlottedNode> held, const NodeArrays& nodes);
+  /// Adds the forces at these slots to what is given. The four entries after those of the range take what
+  /// acts on nodes beyond.
+  void (*scatter)(std::span<const SlottedNode> held, const PaddedVector* forces, const NodeRange& range);
 };
 
 /// Plain C++.

@@ -3,6 +3,8 @@
 // kernels.cpp. Elsewhere the plain version is the best there is.
 #include "simulation/kernels.hpp"
 
+#include <algorithm>
+
 #if defined(__x86_64__)
 #include "simulation/avx2.hpp"
 #include "simulation/diagonals.hpp"
@@ -15,10 +17,9 @@ SNIP_AVX2 inline __m256d between(const PaddedVector* vectors, std::size_t a, std
 }
 
 template <bool BothNodes>
-SNIP_AVX2 void add_spring_forces(const SpringArrays& springs, const PaddedVector* positions,
+SNIP_AVX2 void add_spring_forces(std::span<const ListedSprings> springs, const PaddedVector* positions,
                                  const PaddedVector* velocities, PaddedVector* forces) {
-  for (std::size_t i = 0; i < springs.nodes.size(); i += 4) {
-    const auto* const nodes = &springs.nodes[i];
+  for (const auto& [nodes, four] : springs) {
     // Each index is read and multiplied once: a good part of the loop are indices.
     const std::size_t a0 = nodes[0][0], a1 = nodes[1][0], a2 = nodes[2][0], a3 = nodes[3][0];
     const std::size_t b0 = nodes[0][1], b1 = nodes[1][1], b2 = nodes[2][1], b3 = nodes[3][1];
@@ -28,7 +29,7 @@ SNIP_AVX2 void add_spring_forces(const SpringArrays& springs, const PaddedVector
                                   between(velocities, a2, b2), between(velocities, a3, b3));
     const __m256d scale =
         forces_per_length(columns(d0, d1, d2, d3), rates,
-                          {&springs.rest_length[i], &springs.stiffness[i], &springs.damping[i]});
+                          {four.rest_length.data(), four.stiffness.data(), four.damping.data()});
     const auto add = [&](std::size_t a, std::size_t b, __m256d force) SNIP_AVX2 {
       store(forces[a], _mm256_add_pd(load(forces[a]), force));
       if constexpr (BothNodes) store(forces[b], _mm256_sub_pd(load(forces[b]), force));
@@ -41,7 +42,7 @@ SNIP_AVX2 void add_spring_forces(const SpringArrays& springs, const PaddedVector
 }
 
 SNIP_AVX2 bool advance_nodes(const VelocityUpdate& update, const NodeArrays& nodes, std::size_t first,
-                             std::size_t last, std::span<const std::uint32_t> others) {
+                             std::size_t last, std::span<const SlottedNode> others) {
   const __m256d time_step = _mm256_set1_pd(update.time_step);
   const __m256d acceleration = load(update.acceleration);
   const __m256d drag = _mm256_set1_pd(update.drag);
@@ -50,7 +51,7 @@ SNIP_AVX2 bool advance_nodes(const VelocityUpdate& update, const NodeArrays& nod
   const bool moves = nodes.moves, old_first = update.old_first;
   const PaddedVector *const positions = nodes.positions, *const velocities = nodes.velocities;
   PaddedVector *const forces = nodes.forces, *const next_positions = nodes.next_positions;
-  const double* const inverse_mass = nodes.inverse_mass + nodes.in_columns;
+  const double* const inverse_mass = nodes.inverse_mass_at_slots;
   __m256d sound = _mm256_cmp_pd(zero, zero, _CMP_EQ_OQ);
   const auto advance = [&](std::size_t n) SNIP_AVX2 {
     const __m256d inverse = _mm256_broadcast_sd(inverse_mass + n);
@@ -66,7 +67,7 @@ SNIP_AVX2 bool advance_nodes(const VelocityUpdate& update, const NodeArrays& nod
             _mm256_add_pd(load(positions[n]), _mm256_mul_pd(old_first ? v : next, time_step)));
   };
   for (std::size_t n = first; n < last; ++n) advance(n);
-  for (const std::uint32_t n : others) advance(n);
+  for (const SlottedNode& n : others) advance(n.slot);
   return _mm256_movemask_pd(sound) == 0b1111;
 }
 
@@ -96,12 +97,36 @@ SNIP_AVX2 void from_columns(const ColumnArrays& from, std::size_t first, std::si
   portable_kernels().from_columns(from, n, last, to);
 }
 
-SNIP_AVX2 void gather(std::span<const std::uint32_t> entries, const ColumnArrays& columns, PaddedVector* to) {
-  const double *const x = columns[0], *const y = columns[1], *const z = columns[2];
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    const std::size_t n = entries[i];
-    const __m128d xy = _mm_loadh_pd(_mm_load_sd(x + n), y + n);
-    store(to[2 * i], _mm256_insertf128_pd(_mm256_castpd128_pd256(xy), _mm_load_sd(z + n), 1));
+SNIP_AVX2 inline __m256d vector_at(const double* x, const double* y, const double* z, std::size_t n) {
+  const __m128d xy = _mm_loadh_pd(_mm_load_sd(x + n), y + n);
+  return _mm256_insertf128_pd(_mm256_castpd128_pd256(xy), _mm_load_sd(z + n), 1);
+}
+
+SNIP_AVX2 void gather(std::span<const SlottedNode> held, const NodeArrays& nodes) {
+  const auto [px, py, pz] = nodes.position_columns;
+  const auto [vx, vy, vz] = nodes.velocity_columns;
+  PaddedVector *const positions = nodes.positions, *const velocities = nodes.velocities,
+                      *const forces = nodes.forces;
+  for (const auto [node, slot] : held) {
+    store(positions[slot], vector_at(px, py, pz, node));
+    store(velocities[slot], vector_at(vx, vy, vz, node));
+    store(forces[slot], _mm256_setzero_pd());
+  }
+}
+
+SNIP_AVX2 void scatter(std::span<const SlottedNode> held, const PaddedVector* forces,
+                       const NodeRange& range) {
+  const std::size_t first = range.first, size = (range.last - first + 3) / 4 * 4;
+  const std::uint32_t* const fours = range.fours;
+  for (const auto [node, slot] : held) {
+    const std::size_t n = std::min(node - first, size), entry = fours[n / 4] + n % 4;
+    double *const x = (*range.given)[0] + entry, *const y = (*range.given)[1] + entry,
+                  *const z = (*range.given)[2] + entry;
+    const __m256d force = load(forces[slot]);
+    const __m128d xy = _mm256_castpd256_pd128(force);
+    _mm_store_sd(x, _mm_add_sd(_mm_load_sd(x), xy));
+    _mm_store_sd(y, _mm_add_sd(_mm_load_sd(y), _mm_unpackhi_pd(xy, xy)));
+    _mm_store_sd(z, _mm_add_sd(_mm_load_sd(z), _mm256_extractf128_pd(force, 1)));
   }
 }
 
@@ -115,7 +140,8 @@ const Kernels& best_kernels() {
                                    advance_range_avx2,
                                    to_columns,
                                    from_columns,
-                                   gather};
+                                   gather,
+                                   scatter};
   static const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
   return has_avx2 ? kernels : portable_kernels();
 }

@@ -2,6 +2,7 @@
 #include "cut/spring_blocks.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace cut {
@@ -27,27 +28,27 @@ std::size_t block_size(std::size_t nodes, std::span<const std::uint32_t> offsets
   return std::max<std::size_t>(2048, 4 * *std::max_element(offsets.begin(), offsets.end()));
 }
 
-void write(SpringArrays& to, std::size_t entry, double rest_length, double stiffness, double damping) {
-  to.rest_length[entry] = rest_length;
-  to.stiffness[entry] = stiffness;
-  to.damping[entry] = damping;
-}
+FourSprings& four_at(std::vector<ListedSprings>& list, std::size_t entry) { return list[entry / 4].springs; }
+FourSprings& four_at(SpringDiagonal& diagonal, std::size_t entry) { return diagonal.springs[entry / 4]; }
 
-void write(SpringDiagonal& to, std::size_t entry, double rest_length, double stiffness, double damping) {
-  FourSprings& four = to.springs[entry / 4];
+/// Writes the constants of a spring to a list or diagonal.
+void write(auto& to, std::size_t entry, double rest_length, double stiffness, double damping) {
+  FourSprings& four = four_at(to, entry);
   four.rest_length[entry % 4] = rest_length;
   four.stiffness[entry % 4] = stiffness;
   four.damping[entry % 4] = damping;
 }
 
+std::array<std::uint32_t, 2>& nodes_at(std::vector<ListedSprings>& list, std::size_t entry) {
+  return list[entry / 4].nodes[entry % 4];
+}
+
 /// A free entry; four new ones when there is none, since kernels take four springs at once.
-std::uint32_t take_entry(SpringArrays& springs, std::vector<std::uint32_t>& free, std::uint32_t node) {
+std::uint32_t take_entry(std::vector<ListedSprings>& list, std::vector<std::uint32_t>& free,
+                         std::uint32_t nobody) {
   if (free.empty()) {
-    const std::size_t size = springs.nodes.size();
-    springs.nodes.resize(size + 4, {node, node});
-    springs.rest_length.resize(size + 4);
-    springs.stiffness.resize(size + 4);
-    springs.damping.resize(size + 4);
+    const std::size_t size = 4 * list.size();
+    list.emplace_back().nodes.fill({nobody, nobody});
     for (std::size_t i = 4; i-- > 0;) free.push_back(static_cast<std::uint32_t>(size + i));
   }
   const std::uint32_t entry = free.back();
@@ -84,26 +85,27 @@ std::vector<std::uint32_t> frequent_offsets(std::span<const SpringArrays* const>
   return taken < nodes || nodes < smallest_in_diagonals ? std::vector<std::uint32_t>{} : frequent;
 }
 
-std::uint32_t PlacedNodes::hold(std::uint32_t node) {
-  const auto [found, is_new] = places_.try_emplace(node, 0);
+std::uint32_t HeldNodes::hold(std::uint32_t node, std::uint32_t next_slot) {
+  const auto [found, is_new] = entries_.try_emplace(node, 0);
   if (is_new) {
     if (free_.empty()) {
       free_.push_back(static_cast<std::uint32_t>(nodes_.size()));
-      nodes_.push_back(node);
+      nodes_.push_back({node, next_slot});
       holders_.push_back(0);
     }
     found->second = free_.back();
     free_.pop_back();
-    nodes_[found->second] = node;
+    nodes_[found->second].node = node;
   }
   ++holders_[found->second];
-  return found->second;
+  return nodes_[found->second].slot;
 }
 
-void PlacedNodes::let_go(std::uint32_t place) {
-  if (--holders_[place] > 0) return;
-  places_.erase(nodes_[place]);
-  free_.push_back(place);
+void HeldNodes::let_go(std::uint32_t node) {
+  const auto found = entries_.find(node);
+  if (--holders_[found->second] > 0) return;
+  free_.push_back(found->second);
+  entries_.erase(found);
 }
 
 void SpringBlocks::reset(std::size_t nodes, std::vector<std::uint32_t> offsets) {
@@ -117,7 +119,19 @@ void SpringBlocks::reset(std::size_t nodes, std::vector<std::uint32_t> offsets) 
   for (std::size_t b = 0; b < count; ++b) {
     blocks_[b].first = static_cast<std::uint32_t>(std::min(nodes, b * size));
     blocks_[b].last = static_cast<std::uint32_t>(std::min(nodes, (b + 1) * size));
+    if (!offsets.empty()) {
+      blocks_[b].list_forces.resize((blocks_[b].last - blocks_[b].first + 3) / 4 + 1);
+      blocks_[b].list_forces.back() = 4;
+      blocks_[b].list_force_entries = 8;
+    }
+    blocks_[b].nobody = offsets.empty() ? blocks_[b].first : static_cast<std::uint32_t>(b);
   }
+  slot_of_.clear();
+  if (offsets.empty())
+    for (std::vector<std::uint32_t>* slots : {&slot_of_, &node_at_}) slots->reserve(nodes + nodes / 8);
+  node_at_.resize(offsets.empty() ? nodes : count);
+  std::iota(node_at_.begin(), node_at_.end(), 0);
+  if (offsets.empty()) slot_of_ = node_at_;
   diagonals_.assign(offsets.size(), {});
   for (std::size_t d = 0; d < offsets.size(); ++d) {
     diagonals_[d].offset = offsets[d];
@@ -130,8 +144,10 @@ void SpringBlocks::reset(std::size_t nodes, std::vector<std::uint32_t> offsets) 
 void SpringBlocks::add_copy(std::uint32_t source) {
   SpringBlock& block = blocks_[block_of_[source]];
   const auto copy = static_cast<std::uint32_t>(block_of_.size());
-  block.copies.push_back(copy - static_cast<std::uint32_t>(nodes_in_diagonals()));
-  if (!diagonals_.empty()) block.copy_places.push_back(block.placed[1].hold(copy));
+  const auto slot = static_cast<std::uint32_t>(node_at_.size());
+  block.copies.push_back({copy, slot});
+  slot_of_.push_back(slot);
+  node_at_.push_back(copy);
   block_of_.push_back(block_of_[source]);
 }
 
@@ -163,8 +179,8 @@ void SpringBlocks::leave(const SpringPlace& place) {
   for (std::size_t end = 0; end < 2; ++end) {
     if (place.block[end] == SpringPlace::none) continue;
     SpringBlock& block = blocks_[place.block[end]];
-    SpringArrays& list = inner ? block.inner : block.outer;
-    name_nodes(block, list.nodes[place.entry[end]], block.first, block.first);
+    std::vector<ListedSprings>& list = inner ? block.inner : block.outer;
+    let_go(block, nodes_at(list, place.entry[end]));
     write(list, place.entry[end], 0, 0, 0);
     (inner ? block.free_inner : block.free_outer).push_back(place.entry[end]);
   }
@@ -177,25 +193,37 @@ void SpringBlocks::enter(SpringPlace& place) {
   for (std::size_t end = 0; end < 2; ++end) {
     if (place.block[end] == SpringPlace::none) continue;
     SpringBlock& block = blocks_[place.block[end]];
-    const std::uint32_t nobody = diagonals_.empty() ? block.first : 0;
-    place.entry[end] = inner ? take_entry(block.inner, block.free_inner, nobody)
-                             : take_entry(block.outer, block.free_outer, nobody);
+    place.entry[end] = inner ? take_entry(block.inner, block.free_inner, block.nobody)
+                             : take_entry(block.outer, block.free_outer, block.nobody);
   }
 }
 
-/// Has an entry of a list join these nodes: twice the same for none.
-void SpringBlocks::name_nodes(SpringBlock& block, std::array<std::uint32_t, 2>& entry, std::uint32_t a,
-                              std::uint32_t b) const {
-  std::array<std::uint32_t, 2> next{a, b};
-  if (!diagonals_.empty()) {
-    for (std::uint32_t& node : next) {
-      const std::uint32_t kind = node < uncut_nodes_ ? 0 : 1;
-      node = a == b ? 0 : 2 * block.placed[kind].hold(node) + kind;
+/// Has an entry of a list join these nodes.
+void SpringBlocks::join(SpringBlock& block, std::array<std::uint32_t, 2>& entry, std::uint32_t a,
+                        std::uint32_t b) {
+  const auto slot_of = [&](std::uint32_t node) {
+    if (node >= nodes_in_diagonals()) return slot(node);
+    const auto next = static_cast<std::uint32_t>(node_at_.size());
+    const std::uint32_t slot = block.held.hold(node, next);
+    if (slot == next) node_at_.push_back(node);
+    node_at_[slot] = node;
+    if (node >= block.first && node < block.last) {
+      std::uint32_t& place = block.list_forces[(node - block.first) / 4];
+      if (place == 0) place = std::exchange(block.list_force_entries, block.list_force_entries + 4);
     }
-    if (entry[0] != entry[1])
-      for (const std::uint32_t name : entry) block.placed[name % 2].let_go(name / 2);
-  }
+    return slot;
+  };
+  const std::array<std::uint32_t, 2> next{slot_of(a), slot_of(b)};
+  let_go(block, entry);
   entry = next;
+}
+
+/// Has an entry of a list join nothing.
+void SpringBlocks::let_go(SpringBlock& block, std::array<std::uint32_t, 2>& entry) {
+  if (entry[0] != entry[1])
+    for (const std::uint32_t slot : entry)
+      if (node_at_[slot] < nodes_in_diagonals()) block.held.let_go(node_at_[slot]);
+  entry = {block.nobody, block.nobody};
 }
 
 void SpringBlocks::set(const SpringArrays& springs, std::size_t i, SpringPlace& place) {
@@ -215,8 +243,8 @@ void SpringBlocks::set(const SpringArrays& springs, std::size_t i, SpringPlace& 
   for (std::size_t end = 0; end < 2; ++end) {
     if (place.block[end] == SpringPlace::none) continue;
     SpringBlock& block = blocks_[place.block[end]];
-    SpringArrays& list = place.block[1] == SpringPlace::none ? block.inner : block.outer;
-    name_nodes(block, list.nodes[place.entry[end]], end == 0 ? a : b, end == 0 ? b : a);
+    std::vector<ListedSprings>& list = place.block[1] == SpringPlace::none ? block.inner : block.outer;
+    join(block, nodes_at(list, place.entry[end]), end == 0 ? a : b, end == 0 ? b : a);
     copy_to(list, place.entry[end]);
   }
 }
