@@ -30,7 +30,8 @@ const std::vector<Layer> layers{
     {"cutting", {"spatial", "base", "lattice", "mesh", "changes", "validate"}, {"blade", "cutter"}},
     {"simulation",
      {"spatial", "base", "lattice", "mesh", "changes"},
-     {"material", "simulation", "spring_blocks", "surroundings", "tearing"}},
+     {"implicit_work", "material", "padded_vector", "simulation", "spring_blocks", "surroundings",
+      "tearing"}},
 };
 
 bool contains(const Names& names, std::string_view name) {

@@ -17,20 +17,24 @@ namespace {
 
 constexpr std::size_t cells = 60;  // 3,721 nodes, more than one block
 
-/// A sheet that is cut again and again while it swings.
-std::vector<Eigen::Vector3d> swing(const cut::Executor& executor) {
+/// A sheet that is cut again and again while it swings; onto a ball in implicit steps.
+std::vector<Eigen::Vector3d> swing(const cut::Executor& executor,
+                                   cut::Integrator integrator = cut::Integrator::semi_implicit_euler) {
   cut::HybridMesh mesh = *cut::HybridMesh::build(scenes::grid(cells, cells));
   cut::Cutter knife(cut::default_merge_distances(mesh));
   cut::Simulation simulation = *cut::Simulation::build(mesh, {cut::MaterialMode::conserving, 0.2, 100, 0.01});
   simulation.executor = knife.executor = executor;
   simulation.surroundings.gravity = {0, 1, -9.81};
   simulation.surroundings.longest_way = 100;
+  simulation.surroundings.integrator = integrator;
+  const bool implicit = integrator == cut::Integrator::implicit_euler;
+  if (implicit) simulation.surroundings.spheres.push_back({{40, 40, -8.1}, 8, {0, 0, 0}, 0.2});
   simulation.anchor(cut::NodeId{0u});
   simulation.set_force(cut::NodeId{cells * cells / 2}, {0.1, 0.2, 3});
   std::mt19937 random(7);
   const auto somewhere = [&] { return static_cast<double>(random() % 1000) / 1000 * cells; };
-  for (int i = 0; i < 12; ++i) {
-    CHECK_FALSE(simulation.step(mesh, 1e-3, 5));
+  for (int i = 0; i < (implicit ? 4 : 12); ++i) {
+    CHECK_FALSE(simulation.step(mesh, implicit ? 0.05 : 1e-3, implicit ? 1 : 5));
     const Eigen::Vector3d from{somewhere(), somewhere(), 0}, to{somewhere(), somewhere(), 0};
     const auto changes = knife.cut(mesh, scenes::ribbon({from, to}, {0.1, 0, 20}));
     REQUIRE(changes);
@@ -102,6 +106,12 @@ TEST_CASE("a simulation is the same to the bit for any number of threads") {
   const auto one_thread = swing({});
   for (const std::size_t threads : {std::size_t{2}, std::size_t{3}, std::size_t{8}})
     CHECK(swing(cut::thread_executor(threads)) == one_thread);
+}
+
+TEST_CASE("implicit steps are the same to the bit for any number of threads") {
+  const auto one_thread = swing({}, cut::Integrator::implicit_euler);
+  for (const std::size_t threads : {std::size_t{2}, std::size_t{3}, std::size_t{4}})
+    CHECK(swing(cut::thread_executor(threads), cut::Integrator::implicit_euler) == one_thread);
 }
 
 TEST_CASE("blocks have each spring at both of its ends, however springs are set and moved") {

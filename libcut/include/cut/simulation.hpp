@@ -17,7 +17,9 @@
 #include "cut/error.hpp"
 #include "cut/executor.hpp"
 #include "cut/hybrid_mesh.hpp"
+#include "cut/implicit_work.hpp"
 #include "cut/material.hpp"
+#include "cut/padded_vector.hpp"
 #include "cut/spring_blocks.hpp"
 #include "cut/surroundings.hpp"
 
@@ -30,11 +32,6 @@ struct Energy {
   [[nodiscard]] double total() const { return kinetic + elastic + gravity; }
 };
 
-/// A vector in space, padded so that a processor loads it whole. w stays zero.
-struct alignas(32) PaddedVector {
-  double x = 0, y = 0, z = 0, w = 0;
-};
-
 /// Numbers that begin where a line of a processor's cache does: what lies across two lines takes longer.
 struct alignas(64) CacheLine {
   std::array<double, 8> values{};
@@ -43,32 +40,6 @@ struct alignas(64) CacheLine {
 
 struct VelocityUpdate;
 struct NodeArrays;
-
-/// The linear system of an implicit step (docs/simulation.md), and work space for solving it.
-struct ImplicitWork {
-  /// h²·(−∂f/∂p) + h·(−∂f/∂v) between the two ends of a spring: across·I + along·d·dᵀ, positive semidefinite.
-  struct Coupling {
-    double x, y, z;  ///< unit vector d from the first node to the second
-    double along, across;
-  };
-  /// Symmetric: xx, yy, zz, xy, yz, zx.
-  using Block = std::array<double, 6>;
-  /// A node that touches an obstacle, or would without the contact.
-  struct Contact {
-    std::uint32_t node;
-    double friction;
-    Eigen::Vector3d normal;
-    double least;              ///< velocity along the normal that keeps the node out
-    Eigen::Vector3d velocity;  ///< of the obstacle
-    double limit;              ///< for the impulse of friction
-    double stiffness;          ///< no less than any eigenvalue of the node's block of the diagonal
-  };
-  std::vector<Coupling> couplings;      ///< of all springs, one array after the other
-  std::vector<Block> blocks, inverses;  ///< per node: mass and drag; the inverse of that with the springs'
-  std::vector<PaddedVector> change, right, residual, preconditioned, direction, product;  ///< per node
-  std::vector<Contact> contacts;
-  std::vector<std::uint8_t> touches;  ///< per node: whether it is in `contacts`
-};
 
 class Obstacles;
 
@@ -177,10 +148,12 @@ class Simulation {
   std::optional<Error> explicit_velocities(const HybridMesh& mesh, double time_step, double speed_limit);
   std::optional<Error> implicit_velocities(const HybridMesh& mesh, double time_step, double speed_limit,
                                            const Obstacles& obstacles);
+  void arrange_system(const HybridMesh& mesh);
   void set_up_system(const HybridMesh& mesh, double time_step);
-  void multiply(const std::vector<PaddedVector>& vector);
-  void leave_held(std::vector<PaddedVector>& vectors) const;
-  void find_residual();
+  double multiply(const std::vector<PaddedVector>& vector);
+  double find_residual();
+  double advance(double way);
+  double precondition();
   std::optional<Error> solve(double tolerance);
   bool find_contacts(const Obstacles& obstacles);
   std::optional<Error> settle_contacts(double tolerance);

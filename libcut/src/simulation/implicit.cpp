@@ -4,169 +4,187 @@
 // Backward Euler, linearised at the start of the step, with K = −∂f/∂p and C = −∂f/∂v:
 //   (M + h·C + h²·K) Δv = h·(f − h·K·v)
 // The part of K across a compressed spring would be negative and is left out, so that the matrix is positive
-// definite. It is never put together: its product with a vector is a loop over the springs. Solved by
-// conjugate gradients, preconditioned with the inverses of the 3×3 blocks of its diagonal.
+// definite. Of it there are the springs of each node, by nodes in fours. Solved by conjugate gradients,
+// preconditioned with the inverses of the 3×3 blocks of its diagonal and with coarse grids
+// (coarse_grids.hpp).
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "cut/simulation.hpp"
 #include "mesh/vector3.hpp"
+#include "simulation/coarse_grids.hpp"
 #include "simulation/contact.hpp"
 #include "simulation/drag.hpp"
+#include "simulation/implicit_kernels.hpp"
 #include "simulation/implicit_system.hpp"
 #include "simulation/kernels.hpp"
 #include "simulation/padded.hpp"
 
 namespace cut {
-namespace {
 
-using Block = ImplicitWork::Block;
 using Vectors = std::vector<PaddedVector>;
 
-void add_square(Block& block, double factor, const Eigen::Vector3d& n) {
-  block[0] += factor * n.x() * n.x();
-  block[1] += factor * n.y() * n.y();
-  block[2] += factor * n.z() * n.z();
-  block[3] += factor * n.x() * n.y();
-  block[4] += factor * n.y() * n.z();
-  block[5] += factor * n.z() * n.x();
-}
+/// Finds the springs of each node and the coarse grids, after a cut.
+void Simulation::arrange_system(const HybridMesh& mesh) {
+  ImplicitWork& w = implicit_;
+  if (w.topology_version == topology_version_) return;
+  w.topology_version = topology_version_;
+  const std::size_t nodes = mass_.size(), fours = (nodes + 3) / 4;
+  for (Vectors* v : {&w.change, &w.right, &w.residual, &w.preconditioned, &w.direction, &w.product})
+    v->assign(4 * fours, {});
+  w.blocks.assign(fours, {});
+  w.inverses.assign(fours, {});
+  w.inverse_mass.assign(4 * fours, 0);
 
-PaddedVector product(const ImplicitWork::Coupling& c, const PaddedVector& v) {
-  const double part = c.along * ((c.x * v.x + c.y * v.y) + c.z * v.z);
-  return {c.across * v.x + part * c.x, c.across * v.y + part * c.y, c.across * v.z + part * c.z, 0};
+  std::vector<std::uint32_t> counts(4 * fours, 0);
+  const auto for_each_spring = [&](const auto& act) {
+    for (const SpringArrays* springs : spring_lists())
+      for (std::size_t i = 0; i < springs->nodes.size(); ++i) {
+        const auto [a, b] = springs->nodes[i];
+        if (a == b) continue;
+        act(*springs, i, a, b);
+        act(*springs, i, b, a);
+      }
+  };
+  for_each_spring([&](const auto&, std::size_t, std::uint32_t from, std::uint32_t) { ++counts[from]; });
+  w.row_begins.assign(1, 0);
+  for (std::size_t i = 0; i < fours; ++i)
+    w.row_begins.push_back(w.row_begins.back() + *std::max_element(&counts[4 * i], &counts[4 * i] + 4));
+  w.others.resize(w.row_begins.back());
+  w.springs.assign(w.row_begins.back(), {});
+  w.couplings.assign(w.row_begins.back(), {});
+  for (std::uint32_t i = 0; i < fours; ++i)
+    for (std::size_t s = w.row_begins[i]; s < w.row_begins[i + 1]; ++s)
+      w.others[s] = {4 * i, 4 * i + 1, 4 * i + 2, 4 * i + 3};
+  std::fill(counts.begin(), counts.end(), 0);
+  for_each_spring([&](const SpringArrays& springs, std::size_t i, std::uint32_t from, std::uint32_t to) {
+    const std::size_t s = w.row_begins[from / 4] + counts[from]++, lane = from % 4;
+    w.others[s][lane] = to;
+    w.springs[s].rest_length[lane] = springs.rest_length[i];
+    w.springs[s].stiffness[lane] = springs.stiffness[i];
+    w.springs[s].damping[lane] = springs.damping[i];
+  });
+  w.grids = coarse_grids(mesh, springs_);
 }
-
-double dot(const Vectors& a, const Vectors& b) {
-  PaddedVector sum;
-  for (std::size_t n = 0; n < a.size(); ++n) {
-    sum.x += a[n].x * b[n].x;
-    sum.y += a[n].y * b[n].y;
-    sum.z += a[n].z * b[n].z;
-  }
-  return (sum.x + sum.y) + sum.z;
-}
-
-}  // namespace
 
 /// Matrix and right side of a step.
 void Simulation::set_up_system(const HybridMesh& mesh, double time_step) {
+  arrange_system(mesh);
   ImplicitWork& w = implicit_;
   const std::size_t nodes = mass_.size();
-  for (Vectors* v : {&w.change, &w.right, &w.residual, &w.preconditioned, &w.direction, &w.product})
-    v->resize(nodes);
-  w.blocks.resize(nodes);
-  w.inverses.resize(nodes);
   w.touches.assign(nodes, 0);
   w.contacts.clear();
-  std::size_t count = 0;
-  for (const SpringArrays* springs : spring_lists()) count += springs->nodes.size();
-  w.couplings.resize(count);
-
   if (surroundings.normal_drag > 0) find_air_forces(mesh);
   static_cast<void>(find_forces(nullptr));
   const double drag = surroundings.air_drag / material_.density;
   const PaddedVector acceleration = padded(surroundings.gravity + drag * surroundings.wind);
   for (std::size_t n = 0; n < nodes; ++n) {
-    w.right[n] = time_step * (forces_[n] + mass_[n] * (acceleration - drag * velocities_[n]));
-    const double diagonal = mass_[n] * (1 + time_step * drag);
-    w.blocks[n] = {diagonal, diagonal, diagonal, 0, 0, 0};
+    w.inverse_mass[n] = inverse_mass_[n];
+    const double diagonal = inverse_mass_[n] > 0 ? mass_[n] * (1 + time_step * drag) : 0;
+    put_block(w.blocks, n, {diagonal, diagonal, diagonal, 0, 0, 0});
   }
   if (surroundings.normal_drag > 0)
     for_each_dragged_corner(mesh.buffers, positions_, weights_, surroundings.normal_drag,
                             [&](std::size_t n, const Eigen::Vector3d& normal, double c) {
-                              add_square(w.blocks[n], time_step * c, normal);
+                              if (!(inverse_mass_[n] > 0)) return;
+                              SymmetricBlock block = block_of(w.blocks, n);
+                              add_square(block, time_step * c, normal);
+                              put_block(w.blocks, n, block);
                             });
-  w.inverses = w.blocks;
-  auto coupling = w.couplings.begin();
-  for (const SpringArrays* springs : spring_lists())
-    for (std::size_t i = 0; i < springs->nodes.size(); ++i, ++coupling) {
-      const auto [a, b] = springs->nodes[i];
-      const Eigen::Vector3d between = plain(positions_[b] - positions_[a]);
+  // A node with all its springs, which those at their other ends look at for themselves.
+  const auto set_up_node = [&](std::size_t n) {
+    SymmetricBlock diagonal = block_of(w.blocks, n);
+    PaddedVector right = time_step * (forces_[n] + mass_[n] * (acceleration - drag * velocities_[n]));
+    const bool held = !(inverse_mass_[n] > 0);
+    for (std::size_t s = w.row_begins[n / 4]; s < w.row_begins[n / 4 + 1]; ++s) {
+      ImplicitWork::FourCouplings& c = w.couplings[s];
+      const std::size_t lane = n % 4, other = w.others[s][lane];
+      c.across[lane] = c.along[lane] = 0;
+      if (held || other == n) continue;
+      const Eigen::Vector3d between = plain(positions_[other] - positions_[n]);
       const double squared = squared_length(between);
       const double size = std::sqrt(squared);
-      const double stiffness = time_step * time_step * springs->stiffness[i];
+      const double stiffness = time_step * time_step * w.springs[s].stiffness[lane];
       const bool apart = squared >= smallest_squared_length;
-      const double across = apart ? stiffness * std::max(0.0, 1 - springs->rest_length[i] / size) : 0;
+      const double across = apart ? stiffness * std::max(0.0, 1 - w.springs[s].rest_length[lane] / size) : 0;
       const Eigen::Vector3d d = apart ? Eigen::Vector3d(between / size) : Eigen::Vector3d::Zero();
-      *coupling = {d.x(), d.y(), d.z(), stiffness - across, across};
       // −h²·K·v.
-      const PaddedVector change = product(*coupling, velocities_[b] - velocities_[a]);
-      w.right[a] = w.right[a] + change;
-      w.right[b] = w.right[b] - change;
-      coupling->along += time_step * springs->damping[i];
-      for (const std::uint32_t n : {a, b}) {
-        add_square(w.inverses[n], coupling->along, d);
-        for (std::size_t k = 0; k < 3; ++k) w.inverses[n][k] += across;
-      }
+      const PaddedVector u = velocities_[other] - velocities_[n];
+      const double part = (stiffness - across) * ((d.x() * u.x + d.y() * u.y) + d.z() * u.z);
+      right = right + PaddedVector{across * u.x + part * d.x(), across * u.y + part * d.y(),
+                                   across * u.z + part * d.z(), 0};
+      c.x[lane] = d.x();
+      c.y[lane] = d.y();
+      c.z[lane] = d.z();
+      c.across[lane] = across;
+      c.along[lane] = (stiffness - across) + time_step * w.springs[s].damping[lane];
+      add_square(diagonal, c.along[lane], d);
+      for (std::size_t k = 0; k < 3; ++k) diagonal[k] += across;
     }
-  for (std::size_t n = 0; n < nodes; ++n)
-    w.inverses[n] = inverse_mass_[n] > 0 ? inverse(w.inverses[n]) : Block{};
-  leave_held(w.right);  // a force there need not even be finite
+    put_block(w.inverses, n, held ? SymmetricBlock{} : inverse(diagonal));
+    w.right[n] = held ? PaddedVector{} : right;  // a force there need not even be finite
+  };
+  for_each_range(executor, w.blocks.size(), range_size,
+                 [&](std::size_t, std::size_t first, std::size_t last) {
+                   for (std::size_t n = 4 * first; n < std::min(nodes, 4 * last); ++n) set_up_node(n);
+                 });
+  look_at_system(w, executor);
 }
 
-/// `product` = matrix · vector.
-void Simulation::multiply(const std::vector<PaddedVector>& vector) {
+/// `product` = matrix · vector, both 0 at nodes that are held. Returns vector · product.
+double Simulation::multiply(const Vectors& vector) {
   ImplicitWork& w = implicit_;
-  for (std::size_t n = 0; n < vector.size(); ++n) w.product[n] = product(w.blocks[n], vector[n]);
-  auto coupling = w.couplings.cbegin();
-  for (const SpringArrays* springs : spring_lists())
-    for (const auto& [a, b] : springs->nodes) {
-      const PaddedVector change = product(*coupling++, vector[b] - vector[a]);
-      w.product[a] = w.product[a] - change;
-      w.product[b] = w.product[b] + change;
-    }
+  return sum_over(executor, w, [&](std::size_t first, std::size_t last) {
+    return best_implicit_kernels().multiply(w, vector.data(), w.product.data(), first, last);
+  });
 }
 
-/// Sets to zero what the nodes that are held cannot do.
-void Simulation::leave_held(std::vector<PaddedVector>& vectors) const {
-  for (std::size_t n = 0; n < vectors.size(); ++n)
-    if (!(inverse_mass_[n] > 0)) vectors[n] = {};
-}
-
-/// `residual` = what is left of the right side.
-void Simulation::find_residual() {
+/// `residual` = what is left of the right side. Returns its size, as `advance` of ImplicitKernels does, and
+/// leaves in `preconditioned` what that does.
+double Simulation::find_residual() {
   ImplicitWork& w = implicit_;
   multiply(w.change);
-  for (std::size_t n = 0; n < w.right.size(); ++n) w.residual[n] = w.right[n] - w.product[n];
-  leave_held(w.residual);
+  w.residual = w.right;
+  w.direction.assign(w.direction.size(), {});
+  return advance(1);
+}
+
+/// Goes along `direction`.
+double Simulation::advance(double way) {
+  return sum_over(executor, implicit_, [&](std::size_t first, std::size_t last) {
+    return best_implicit_kernels().advance(implicit_, way, first, last);
+  });
+}
+
+/// Adds to `preconditioned` what the coarse grids know. Returns residual · preconditioned.
+double Simulation::precondition() {
+  find_correction(implicit_, executor);
+  return sum_over(executor, implicit_, [&](std::size_t first, std::size_t last) {
+    return best_implicit_kernels().correct(implicit_, first, last);
+  });
 }
 
 /// Improves `change` until the residual is small. Free nodes then get the rest of it as an impulse: sums of
 /// pairs of forces, which conserve momentum whatever the tolerance is.
 std::optional<Error> Simulation::solve(double tolerance) {
   ImplicitWork& w = implicit_;
-  const auto precondition = [&] {
-    for (std::size_t n = 0; n < w.residual.size(); ++n)
-      w.preconditioned[n] = product(w.inverses[n], w.residual[n]);
-    leave_held(w.preconditioned);
-  };
-  find_residual();
-  const double enough = tolerance * tolerance * weighted_square(w.right, inverse_mass_);
-  const auto done = [&] { return weighted_square(w.residual, inverse_mass_) <= enough; };
-  precondition();
-  w.direction = w.preconditioned;
-  double size = dot(w.residual, w.preconditioned);
-  for (std::size_t i = 0; !done(); ++i) {
-    multiply(w.direction);
-    leave_held(w.product);
-    const double curvature = dot(w.direction, w.product);
+  const double enough = tolerance * tolerance * weighted_square(w.right, w.inverse_mass);
+  double left = find_residual(), size = 0;
+  for (std::size_t i = 0; !(left <= enough); ++i) {
+    const double next = precondition(), part = i == 0 ? 0 : next / size;
+    size = next;
+    for_each_range(executor, w.blocks.size(), range_size,
+                   [&](std::size_t, std::size_t first, std::size_t last) {
+                     best_implicit_kernels().turn(w, part, first, last);
+                   });
+    const double curvature = multiply(w.direction);
     // Not even a direction is left when rounding is all there is, and none is sound after an overflow.
     if (i == surroundings.most_iterations || !(curvature > 0)) return not_solved(i);
-    const double way = size / curvature;
-    for (std::size_t n = 0; n < w.change.size(); ++n) {
-      w.change[n] = w.change[n] + way * w.direction[n];
-      w.residual[n] = w.residual[n] - way * w.product[n];
-    }
-    precondition();
-    const double next = dot(w.residual, w.preconditioned);
-    for (std::size_t n = 0; n < w.direction.size(); ++n)
-      w.direction[n] = w.preconditioned[n] + (next / size) * w.direction[n];
-    size = next;
+    left = advance(size / curvature);
   }
   find_residual();
-  for (std::size_t n = 0; n < w.change.size(); ++n) {
+  for (std::size_t n = 0; n < mass_.size(); ++n) {
     w.change[n] = w.change[n] + inverse_mass_[n] * w.residual[n];
     forces_[n] = velocities_[n] + w.change[n];
   }

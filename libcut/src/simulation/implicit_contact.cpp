@@ -21,7 +21,7 @@ namespace {
 using Contact = ImplicitWork::Contact;
 
 /// Largest sum of a row: no less than the largest eigenvalue.
-double bound(const ImplicitWork::Block& b) {
+double bound(const SymmetricBlock& b) {
   return std::max({std::abs(b[0]) + std::abs(b[3]) + std::abs(b[5]),
                    std::abs(b[3]) + std::abs(b[1]) + std::abs(b[4]),
                    std::abs(b[5]) + std::abs(b[4]) + std::abs(b[2])});
@@ -63,7 +63,7 @@ bool Simulation::find_contacts(const Obstacles& obstacles) {
     w.touches[n] = 1;
     w.contacts.push_back({static_cast<std::uint32_t>(n), met->friction, met->normal,
                           dot(velocity, met->normal) + met->depth / obstacles.time_step(), met->velocity, 0,
-                          bound(inverse(w.inverses[n]))});
+                          bound(inverse(block_of(w.inverses, n)))});
   }
   return w.contacts.size() > before;
 }
@@ -72,7 +72,7 @@ bool Simulation::find_contacts(const Obstacles& obstacles) {
 std::optional<Error> Simulation::settle_contacts(double tolerance) {
   ImplicitWork& w = implicit_;
   const std::size_t nodes = mass_.size();
-  const double enough = tolerance * tolerance * weighted_square(w.right, inverse_mass_);
+  const double enough = tolerance * tolerance * weighted_square(w.right, w.inverse_mass);
   std::vector<PaddedVector>&last = w.change, &reached = w.direction, &next = w.preconditioned;
   reached = last;
   double age = 1;
@@ -81,7 +81,7 @@ std::optional<Error> Simulation::settle_contacts(double tolerance) {
     multiply(reached);
     for (std::size_t n = 0; n < nodes; ++n) {
       w.residual[n] = w.right[n] - w.product[n];
-      next[n] = reached[n] + 0.5 * product(w.inverses[n], w.residual[n]);
+      next[n] = reached[n] + 0.5 * product(block_of(w.inverses, n), w.residual[n]);
     }
     for (Contact& c : w.contacts) {
       const Eigen::Vector3d start = plain(velocities_[c.node]);
@@ -92,9 +92,7 @@ std::optional<Error> Simulation::settle_contacts(double tolerance) {
       next[c.node] = padded(after - start);
       w.residual[c.node] = padded((after - before) / mobility);
     }
-    leave_held(next);
-    leave_held(w.residual);
-    if (weighted_square(w.residual, inverse_mass_) <= enough) break;
+    if (weighted_square(w.residual, w.inverse_mass) <= enough) break;
     double downhill = 0;
     for (std::size_t n = 0; n < nodes; ++n) downhill += dot(plain(w.residual[n]), plain(next[n] - last[n]));
     const double older = downhill < 0 ? 1 : (1 + std::sqrt(1 + 4 * age * age)) / 2;
