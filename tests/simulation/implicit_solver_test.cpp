@@ -152,7 +152,7 @@ TEST_CASE("A stiff sheet of sixteen times the nodes takes hardly more iterations
 }
 
 TEST_CASE("Functions of a coarse grid sum to one at each node, and none reaches across a cut") {
-  cut::HybridMesh mesh = testing::built(scenes::random_sheet(30, 20, 0.1, 5));
+  cut::HybridMesh mesh = testing::built(scenes::random_sheet(50, 20, 0.1, 5));
   cut::Simulation simulation = testing::simulated(mesh, {});
   cut::Cutter knife(cut::default_merge_distances(mesh));
   const auto changes = knife.cut(mesh, scenes::plane({1.52, 1, 0}, {0.1, 3, 0}, {0, 0, 1}));

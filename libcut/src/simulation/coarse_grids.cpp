@@ -31,21 +31,36 @@ struct Cover {
   std::vector<Eigen::Vector3d> places;
 };
 
+/// A corner of a grid as one number. A grid has fewer than 2^20 cells along each axis (`coarse_grids`).
+constexpr std::uint64_t axis_bits = 21;
+Eigen::Vector3d place_of(std::uint64_t corner) {
+  const auto along = [&](std::uint64_t axis) {
+    return static_cast<double>((corner >> (axis * axis_bits)) & ((std::uint64_t{1} << axis_bits) - 1));
+  };
+  return {along(0), along(1), along(2)};
+}
+
 /// A function belongs to a corner of the grid and to points around it that are joined with each other there.
 Cover cover(const Points& points) {
   Cover result;
-  std::vector<Eigen::Vector3d> corners;
+  std::vector<std::uint64_t> corners;
   for (const Eigen::Vector3d& p : points.places) {
-    const Eigen::Vector3d low{std::floor(p.x()), std::floor(p.y()), std::floor(p.z())};
-    const Eigen::Vector3d beyond = p - low;
-    for (int c = 0; c < 8; ++c) {
-      const Eigen::Vector3d step(c & 1, (c >> 1) & 1, (c >> 2) & 1);
-      double weight = 1;
-      for (int k = 0; k < 3; ++k) weight *= step[k] > 0 ? beyond[k] : 1 - beyond[k];
-      if (!(weight > 0)) continue;
-      corners.push_back(low + step);
-      result.rows.weights.push_back(weight);
+    std::array<std::array<double, 2>, 3> weights;
+    std::uint64_t low = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double cell = std::floor(p[static_cast<Eigen::Index>(axis)]);
+      weights[axis][1] = p[static_cast<Eigen::Index>(axis)] - cell;
+      weights[axis][0] = 1 - weights[axis][1];
+      low += static_cast<std::uint64_t>(cell) << (axis * axis_bits);
     }
+    for (std::uint64_t z = 0; z < 2; ++z)
+      for (std::uint64_t y = 0; y < 2 && weights[2][z] > 0; ++y)
+        for (std::uint64_t x = 0; x < 2; ++x) {
+          const double weight = weights[0][x] * weights[1][y] * weights[2][z];
+          if (!(weight > 0)) continue;
+          corners.push_back(low + x + (y << axis_bits) + (z << (2 * axis_bits)));
+          result.rows.weights.push_back(weight);
+        }
     result.rows.begins.push_back(static_cast<std::uint32_t>(corners.size()));
   }
   const std::vector<std::uint32_t>& begins = result.rows.begins;
@@ -55,15 +70,15 @@ Cover cover(const Points& points) {
     for (std::uint32_t i = begins[a]; i < begins[a + 1]; ++i)
       for (std::uint32_t k = begins[b]; k < begins[b + 1]; ++k)
         if (corners[i] == corners[k]) {
-          const auto [low, high] = std::minmax({root_of(parents, i), root_of(parents, k)});
-          parents[high] = low;
+          const auto [first, second] = std::minmax({root_of(parents, i), root_of(parents, k)});
+          parents[second] = first;
         }
   result.rows.columns.resize(corners.size());
   for (std::uint32_t i = 0; i < corners.size(); ++i) {
     const std::uint32_t root = root_of(parents, i);
     if (root == i) {
       result.rows.columns[i] = static_cast<std::uint32_t>(result.places.size());
-      result.places.push_back(corners[i]);
+      result.places.push_back(place_of(corners[i]));
     } else {
       result.rows.columns[i] = result.rows.columns[root];
     }
@@ -72,8 +87,13 @@ Cover cover(const Points& points) {
 }
 
 bool same_columns(const WeightRows& rows, std::size_t a, std::size_t b) {
-  return std::equal(rows.columns.begin() + rows.begins[a], rows.columns.begin() + rows.begins[a + 1],
-                    rows.columns.begin() + rows.begins[b], rows.columns.begin() + rows.begins[b + 1]);
+  const std::size_t size = rows.begins[a + 1] - rows.begins[a];
+  if (rows.begins[b + 1] - rows.begins[b] != size) return false;
+  const std::uint32_t *const of_a = &rows.columns[rows.begins[a]], *const of_b =
+                                                                       &rows.columns[rows.begins[b]];
+  for (std::size_t i = 0; i < size; ++i)
+    if (of_a[i] != of_b[i]) return false;
+  return true;
 }
 
 /// Functions that share a point.
@@ -105,20 +125,19 @@ WeightRows transposed(const WeightRows& rows, std::size_t columns) {
   return result;
 }
 
-WeightRows product(const WeightRows& a, const WeightRows& b) {
+/// @param columns  how many b has
+WeightRows product(const WeightRows& a, const WeightRows& b, std::size_t columns) {
   WeightRows result;
+  std::vector<double> sums(columns, 0);  // weights are > 0
   for (std::size_t r = 0; r + 1 < a.begins.size(); ++r) {
-    const auto begin = static_cast<std::ptrdiff_t>(result.columns.size());
     for (std::size_t i = a.begins[r]; i < a.begins[r + 1]; ++i)
       for (std::size_t k = b.begins[a.columns[i]]; k < b.begins[a.columns[i] + 1]; ++k) {
-        const auto found = std::find(result.columns.begin() + begin, result.columns.end(), b.columns[k]);
-        const auto at = static_cast<std::size_t>(found - result.columns.begin());
-        if (found == result.columns.end()) {
-          result.columns.push_back(b.columns[k]);
-          result.weights.push_back(0);
-        }
-        result.weights[at] += a.weights[i] * b.weights[k];
+        double& sum = sums[b.columns[k]];
+        if (sum == 0) result.columns.push_back(b.columns[k]);
+        sum += a.weights[i] * b.weights[k];
       }
+    for (std::size_t i = result.begins.back(); i < result.columns.size(); ++i)
+      result.weights.push_back(std::exchange(sums[result.columns[i]], 0));
     result.begins.push_back(static_cast<std::uint32_t>(result.columns.size()));
   }
   return result;
@@ -143,19 +162,27 @@ SymmetricBlock block_of(const ImplicitWork::FourCouplings& c, std::size_t lane) 
 /// one is held if it has none.
 void add_spring(std::vector<SymmetricBlock>& blocks, const SymmetricBlock& block, const WeightRows& rows,
                 std::size_t a, std::size_t b, bool b_held) {
-  const auto weight_at = [&](std::size_t row, std::uint32_t column) {
-    for (std::size_t i = rows.begins[row]; i < rows.begins[row + 1]; ++i)
-      if (rows.columns[i] == column) return rows.weights[i];
-    return 0.0;
-  };
-  for (std::size_t i = rows.begins[a]; i < rows.begins[a + 1]; ++i) {
-    const double difference = rows.weights[i] - (b_held ? 0 : weight_at(b, rows.columns[i]));
+  const auto add_at = [&](std::size_t i, double difference) {
     add(blocks[rows.columns[i]], difference * difference, block);
+  };
+  const std::size_t begin_a = rows.begins[a], end_a = rows.begins[a + 1];
+  const std::size_t begin_b = rows.begins[b], end_b = rows.begins[b + 1];
+  if (b_held) {
+    for (std::size_t i = begin_a; i < end_a; ++i) add_at(i, rows.weights[i]);
+  } else if (same_columns(rows, a, b)) {  // most springs
+    for (std::size_t i = begin_a; i < end_a; ++i)
+      add_at(i, rows.weights[i] - rows.weights[i - begin_a + begin_b]);
+  } else {
+    const auto weight_in = [&](std::size_t begin, std::size_t end, std::uint32_t column) {
+      for (std::size_t i = begin; i < end; ++i)
+        if (rows.columns[i] == column) return rows.weights[i];
+      return 0.0;
+    };
+    for (std::size_t i = begin_a; i < end_a; ++i)
+      add_at(i, rows.weights[i] - weight_in(begin_b, end_b, rows.columns[i]));
+    for (std::size_t i = begin_b; i < end_b; ++i)
+      if (weight_in(begin_a, end_a, rows.columns[i]) == 0) add_at(i, rows.weights[i]);
   }
-  if (b_held || same_columns(rows, a, b)) return;
-  for (std::size_t i = rows.begins[b]; i < rows.begins[b + 1]; ++i)
-    if (weight_at(a, rows.columns[i]) == 0)
-      add(blocks[rows.columns[i]], rows.weights[i] * rows.weights[i], block);
 }
 
 /// The blocks of the diagonal of the system that moves functions.
@@ -193,8 +220,8 @@ std::vector<CoarseGrid> coarse_grids(const HybridMesh& mesh, const SpringArrays&
     high = high.cwiseMax(p);
   }
   const double extent = length(high - low);
-  // Not so fine that a point's number would not be exact.
-  double spacing = std::max(ratio * length_of_all / static_cast<double>(points.joined.size()), 1e-9 * extent);
+  double spacing = std::max(ratio * length_of_all / static_cast<double>(points.joined.size()), 2e-6 * extent);
+  if (!(spacing > 0)) spacing = 1;  // of springs whose squared length is less than any number
   for (const AncestorNodeId n : mesh.buffers.nodes)
     points.places.emplace_back((rest[n.index()] - low) / spacing);
   for (;; spacing *= ratio) {
@@ -205,12 +232,12 @@ std::vector<CoarseGrid> coarse_grids(const HybridMesh& mesh, const SpringArrays&
     grid.from_finer = transposed(grid.to_finer, functions);
     if (grids.size() > 1) {
       const CoarseGrid& finer = *(grids.end() - 2);
-      grid.at_nodes = product(grids.size() == 2 ? finer.to_finer : finer.at_nodes, grid.to_finer);
+      grid.at_nodes = product(grids.size() == 2 ? finer.to_finer : finer.at_nodes, grid.to_finer, functions);
     }
     grid.inverses.resize(functions);
     grid.residual.resize(functions);
     grid.correction.resize(functions);
-    if (spacing >= extent) return grids;
+    if (2 * spacing >= extent) return grids;
     points.joined = overlaps(grid.to_finer);
     points.places = std::move(covered.places);
     for (Eigen::Vector3d& p : points.places) p /= ratio;
