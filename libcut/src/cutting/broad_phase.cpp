@@ -4,6 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "cutting/in_parts.hpp"
+
 namespace cut {
 namespace {
 
@@ -57,12 +59,12 @@ void BroadPhase::add(const HybridMesh& mesh, const std::vector<TriangleCopy>& co
 }
 
 std::vector<CandidatePair> BroadPhase::candidates(const HybridMesh& mesh, const TriangleMesh& cutter,
-                                                  double slack) const {
-  std::vector<CandidatePair> pairs;
-  const auto add_pair = [&](TriangleId triangle, std::uint32_t cutter_triangle) {
+                                                  double slack, const Executor& executor) const {
+  using Pairs = std::vector<CandidatePair>;
+  const auto add_pair = [&](TriangleId triangle, std::uint32_t cutter_triangle, Pairs& pairs) {
     // A removed triangle keeps its place in the arrays and in the tree.
-    if (mesh.buffers.triangles[triangle.index()].ancestor.valid())
-      pairs.push_back({triangle, cutter_triangle});
+    const AncestorId ancestor = mesh.buffers.triangles[triangle.index()].ancestor;
+    if (ancestor.valid()) pairs.push_back({ancestor, triangle, cutter_triangle});
   };
   std::vector<std::pair<Box, std::uint32_t>> faces;
   for (std::uint32_t i = 0; i < cutter.triangles.size(); ++i) {
@@ -70,19 +72,26 @@ std::vector<CandidatePair> BroadPhase::candidates(const HybridMesh& mesh, const 
     faces.emplace_back(box_of(cutter.positions[t[0]], cutter.positions[t[1]], cutter.positions[t[2]], slack),
                        i);
   }
+  Pairs all;
   if (has_tree_ && knows(mesh)) {
     for (const auto& [box, i] : faces)
-      tree_.query(spatial::intersects(box), [&, face = i](TriangleId triangle) { add_pair(triangle, face); });
-    return pairs;
+      tree_.query(spatial::intersects(box),
+                  [&, face = i](TriangleId triangle) { add_pair(triangle, face, all); });
+    return all;
   }
   const spatial::BoundingBoxTernaryTree<std::uint32_t, double, 3> tree(faces.begin(), faces.end());
   const Box bounds = tree.bounds();
-  for (std::size_t t = 0; t < mesh.buffers.triangles.size(); ++t) {
-    const Box box = box_of(mesh, t);
-    if (!spatial::touch(box, bounds)) continue;
-    tree.query(spatial::intersects(box), [&](std::uint32_t face) { add_pair(TriangleId{t}, face); });
-  }
-  return pairs;
+  const auto parts =
+      in_parts<Pairs>(executor, mesh.buffers.triangles.size(), [&](std::size_t t, Pairs& pairs) {
+        const Box box = box_of(mesh, t);
+        if (!spatial::touch(box, bounds)) return;
+        const auto first = static_cast<std::ptrdiff_t>(pairs.size());
+        tree.query(spatial::intersects(box),
+                   [&](std::uint32_t face) { add_pair(TriangleId{t}, face, pairs); });
+        std::sort(pairs.begin() + first, pairs.end());
+      });
+  for (const Pairs& part : parts) append(all, part);
+  return all;
 }
 
 }  // namespace cut

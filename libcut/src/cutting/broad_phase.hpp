@@ -9,6 +9,7 @@
 
 #include "cut/changes.hpp"
 #include "cut/error.hpp"
+#include "cut/executor.hpp"
 #include "cut/hybrid_mesh.hpp"
 #include "cutting/detect_cutting_lines.hpp"
 #include "spatial/bounding_box_ternary_tree.hpp"
@@ -29,12 +30,11 @@ class BroadPhase {
   /// were.
   void add(const HybridMesh& mesh, const std::vector<TriangleCopy>& copies);
 
-  /// All pairs whose boxes are within `slack` of each other, in no particular order. Also for a mesh that
-  /// `update` has not seen yet.
-  /// Complexity: by the size of the cutter and the result; O(triangles) in addition when there is no tree of
-  /// the mesh as it is.
+  /// All pairs whose boxes are within `slack` of each other, in no particular order, but sorted where the
+  /// mesh is uncut and moves. Also for a mesh that `update` has not seen yet. Complexity: by the size of the
+  /// cutter and the result; O(triangles) in addition when there is no tree of the mesh as it is.
   [[nodiscard]] std::vector<CandidatePair> candidates(const HybridMesh& mesh, const TriangleMesh& cutter,
-                                                      double slack) const;
+                                                      double slack, const Executor& executor = {}) const;
 
  private:
   spatial::BoundingBoxTernaryTree<TriangleId, double, 3> tree_;  ///< empty until the mesh stands still

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "cutting/edge_state.hpp"
+#include "cutting/in_parts.hpp"
 #include "lattice/components.hpp"
 #include "lattice/scratch.hpp"
 #include "lattice/sort_unique.hpp"
@@ -67,20 +68,26 @@ bool renders_corner(const HybridMesh& mesh, AncestorId t, Index polygon, std::si
 }
 
 /// One component of fragments, as seen from the node.
-struct Copy {
-  NodeId old;    ///< the node that its fragments had so far
+struct Component {
+  NodeId node;   ///< that its fragments had so far
   bool renders;  ///< one of its fragments reaches the node
   Index root;
-  NodeId now;
 };
 
-/// What a node falls into: nothing when it stays whole.
-struct Parts {
-  std::vector<Copy> copies;
-  std::vector<Index> copy_of;  ///< per fragment around the node
-  std::vector<Index> order;    ///< of the copies that had the same node, the first keeps it
-  bool copied = false;
-  std::vector<TriangleId> changed;  ///< fragments that got another node
+/// The copies that some nodes get, and which fragments get them.
+struct Copies {
+  struct Made {
+    AncestorNodeId node;
+    NodeId source;
+  };
+  struct Change {
+    TriangleId triangle;
+    std::uint32_t corner;
+    Index copy;  ///< index into `made`
+  };
+  std::vector<Made> made;
+  std::vector<Change> changes;
+  std::size_t first = 0;  ///< number of the first copy
 };
 
 /// Calls visit(triangle, corner, polygon, number) for the fragments around a node.
@@ -94,81 +101,90 @@ void for_each_fragment(const HybridMesh& mesh, AncestorNodeId node, const Visit&
   }
 }
 
-Parts parts_of(const HybridMesh& mesh, AncestorNodeId node) {
+/// Of the components that had the same node, all but one get copies of it.
+void find_copies(const HybridMesh& mesh, AncestorNodeId node, Copies& all) {
   lattice::Scratch scratch;
   const Fragments fragments(mesh, node, scratch);
-  lattice::Components components = connect(mesh, node, fragments, scratch);
-  Parts parts;
+  lattice::Components connected = connect(mesh, node, fragments, scratch);
   Index roots = 0;
-  for (Index i = 0; i < components.size(); ++i) roots += components.root(i) == i ? 1u : 0u;
-  if (roots <= 1) return parts;
-  std::vector<Copy>& copies = parts.copies;
-  lattice::ScratchList<Index> copy_of_root(components.size(), HybridMesh::none, &scratch);
-  parts.copies.reserve(roots);
-  parts.copy_of.reserve(components.size());
+  for (Index i = 0; i < connected.size(); ++i) roots += connected.root(i) == i ? 1u : 0u;
+  if (roots <= 1) return;
+  lattice::ScratchList<Component> components(&scratch);
+  components.reserve(roots);
+  lattice::ScratchList<Index> component_of(connected.size(), HybridMesh::none, &scratch);  // by root
   for_each_fragment(mesh, node, [&](AncestorId t, std::size_t corner, Index polygon, Index number) {
-    const Index root = components.root(number);
-    if (copy_of_root[root] == HybridMesh::none) {
-      copy_of_root[root] = static_cast<Index>(copies.size());
-      copies.push_back(
-          {mesh.buffers.triangles[mesh.fragment(t, polygon).index()].nodes[corner], false, root, {}});
+    const Index root = connected.root(number);
+    if (component_of[root] == HybridMesh::none) {
+      component_of[root] = static_cast<Index>(components.size());
+      components.push_back(
+          {mesh.buffers.triangles[mesh.fragment(t, polygon).index()].nodes[corner], false, root});
     }
-    Copy& copy = copies[copy_of_root[root]];
-    copy.renders = copy.renders || renders_corner(mesh, t, polygon, corner);
-    parts.copy_of.push_back(copy_of_root[root]);
+    bool& renders = components[component_of[root]].renders;
+    renders = renders || renders_corner(mesh, t, polygon, corner);
   });
-  parts.order.resize(copies.size());
-  std::iota(parts.order.begin(), parts.order.end(), Index{0});
-  std::sort(parts.order.begin(), parts.order.end(), [&](Index a, Index b) {
-    return std::tuple(copies[a].old, !copies[a].renders, copies[a].root) <
-           std::tuple(copies[b].old, !copies[b].renders, copies[b].root);
+  lattice::ScratchList<Index> order(components.size(), &scratch);
+  std::iota(order.begin(), order.end(), Index{0});
+  std::sort(order.begin(), order.end(), [&](Index a, Index b) {
+    return std::tuple(components[a].node, !components[a].renders, components[a].root) <
+           std::tuple(components[b].node, !components[b].renders, components[b].root);
   });
-  return parts;
-}
-
-/// Makes the copies, and says whether there are any.
-bool copy_node(HybridMesh& mesh, AncestorNodeId node, Parts& parts, ChangeLog& log) {
-  bool copied = false;
-  for (std::size_t i = 0; i < parts.order.size(); ++i) {
-    Copy& copy = parts.copies[parts.order[i]];
-    if (i == 0 || parts.copies[parts.order[i - 1]].old != copy.old) {
-      copy.now = copy.old;
-      continue;
-    }
-    copy.now = NodeId{mesh.buffers.nodes.size()};
-    mesh.buffers.nodes.push_back(node);
-    mesh.positions.push_back(Eigen::Vector3d(mesh.positions[copy.old.index()]));
-    log.nodes.push_back(copy.now.value);
-    log.node_copies.push_back({copy.now, copy.old});
-    copied = true;
+  lattice::ScratchList<Index> copy_of(components.size(), HybridMesh::none, &scratch);
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    const NodeId source = components[order[i]].node;
+    if (components[order[i - 1]].node != source) continue;
+    copy_of[order[i]] = static_cast<Index>(all.made.size());
+    all.made.push_back({node, source});
   }
-  return copied;
+  for_each_fragment(mesh, node, [&](AncestorId t, std::size_t corner, Index polygon, Index number) {
+    const Index copy = copy_of[component_of[connected.root(number)]];
+    if (copy != HybridMesh::none)
+      all.changes.push_back({mesh.fragment(t, polygon), static_cast<std::uint32_t>(corner), copy});
+  });
 }
 
-/// Gives fragments around the node their copies.
-void give_copies(HybridMesh& mesh, AncestorNodeId node, Parts& parts) {
-  for_each_fragment(mesh, node, [&](AncestorId t, std::size_t corner, Index polygon, Index number) {
-    const TriangleId triangle = mesh.fragment(t, polygon);
-    NodeId& now = mesh.buffers.triangles[triangle.index()].nodes[corner];
-    if (now == parts.copies[parts.copy_of[number]].now) return;
-    now = parts.copies[parts.copy_of[number]].now;
-    parts.changed.push_back(triangle);
-  });
+/// @pre the mesh and `all_copies` have entries for them
+void make_copies(HybridMesh& mesh, const Copies& copies, std::span<NodeCopy> all_copies) {
+  const std::size_t before = mesh.buffers.nodes.size() - all_copies.size();
+  for (std::size_t i = 0; i < copies.made.size(); ++i) {
+    const NodeId copy{copies.first + i}, source = copies.made[i].source;
+    mesh.buffers.nodes[copy.index()] = copies.made[i].node;
+    mesh.positions[copy.index()] = mesh.positions[source.index()];
+    all_copies[copy.index() - before] = {copy, source};
+  }
+  for (const auto& [triangle, corner, copy] : copies.changes)
+    mesh.buffers.triangles[triangle.index()].nodes[corner] = NodeId{copies.first + copy};
 }
 
 /// Two nodes that a spring joins, in the direction of its edge.
 using Pair = std::array<NodeId, 2>;
 
-/// What an edge's springs lack.
-struct EdgeSprings {
-  std::vector<Pair> wanted;                    ///< pairs that have no spring
-  std::vector<std::pair<Pair, SpringId>> old;  ///< all springs, and ...
-  std::vector<SpringId> idle;                  ///< ... those whose pair is gone
+/// A pair that gets a spring: an entry of its own, or that of the spring which it comes from.
+struct NewSpring {
+  Pair nodes;
+  SpringId source;
+  bool takes_entry;
 };
 
-EdgeSprings springs_of(const HybridMesh& mesh, AncestorEdgeId e) {
-  EdgeSprings result;
-  std::vector<Pair>& wanted = result.wanted;
+/// What the springs of some edges lack.
+struct EdgesSprings {
+  struct Edge {
+    AncestorEdgeId edge;
+    std::size_t wanted_end;
+    std::size_t idle_end;
+  };
+  std::vector<Edge> edges;  ///< those that lack anything
+  std::vector<NewSpring> wanted;
+  std::vector<SpringId> idle;  ///< whose pair is gone, and whose entry nobody takes
+  std::size_t copies = 0;      ///< how many new entries; then the number of the next
+  std::vector<std::uint32_t> written;
+};
+
+/// @param before_cut the node that a node was copied from by this cut, or itself
+template <class BeforeCut>
+void find_springs(const HybridMesh& mesh, AncestorEdgeId e, const BeforeCut& before_cut,
+                  EdgesSprings& result) {
+  lattice::Scratch scratch;
+  lattice::ScratchList<Pair> wanted(&scratch);  // pairs that have no spring
   for (const AncestorId t : mesh.ancestors.edges[e.index()].triangles) {
     if (!t.valid()) continue;
     const std::size_t i = mesh.ancestors.local_edge(t, e);
@@ -180,12 +196,15 @@ EdgeSprings springs_of(const HybridMesh& mesh, AncestorEdgeId e) {
       wanted.push_back(pair);
     }
   }
-  lattice::sort_unique(wanted);
+  std::sort(wanted.begin(), wanted.end());
+  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+  lattice::ScratchList<std::pair<Pair, SpringId>> old(&scratch);
+  lattice::ScratchList<SpringId> idle(&scratch);
   const auto look_at = [&](SpringId s) {
-    const Pair& pair = result.old.emplace_back(mesh.buffers.springs[s.index()].nodes, s).first;
+    const Pair& pair = old.emplace_back(mesh.buffers.springs[s.index()].nodes, s).first;
     const auto found = std::find(wanted.begin(), wanted.end(), pair);
     if (found == wanted.end())
-      result.idle.push_back(s);
+      idle.push_back(s);
     else
       wanted.erase(found);
   };
@@ -193,68 +212,103 @@ EdgeSprings springs_of(const HybridMesh& mesh, AncestorEdgeId e) {
     for (const SpringId s : state->springs) look_at(s);
   else
     look_at(SpringId{e.index()});
-  return result;
+  if (wanted.empty() && idle.empty()) return;
+
+  // The first pair that comes from that of an idle spring gets its entry.
+  for (const Pair& pair : wanted) {
+    const SpringId source = std::find_if(old.begin(), old.end(), [&](const auto& spring) {
+                              return spring.first == Pair{before_cut(pair[0]), before_cut(pair[1])};
+                            })->second;
+    const auto entry = std::find(idle.begin(), idle.end(), source);
+    result.wanted.push_back({pair, source, entry != idle.end()});
+    if (entry != idle.end())
+      idle.erase(entry);
+    else
+      ++result.copies;
+  }
+  append(result.idle, idle);
+  result.edges.push_back({e, result.wanted.size(), result.idle.size()});
+}
+
+/// Writes what some edges lack. @pre all edges have states, and all springs their entries
+void write_springs(HybridMesh& mesh, EdgesSprings& part, std::span<SpringCopy> copies) {
+  auto& springs = mesh.buffers.springs;
+  const std::size_t before = springs.size() - copies.size();
+  std::size_t w = 0, i = 0;
+  for (const auto& [edge, wanted_end, idle_end] : part.edges) {
+    EdgeState& state = edge_state_for_writing(mesh, edge);
+    for (; w < wanted_end; ++w) {
+      const NewSpring& spring = part.wanted[w];
+      SpringId s = spring.source;
+      if (!spring.takes_entry) {
+        s = SpringId{part.copies++};
+        springs[s.index()].edge = edge;
+        state.springs.push_back(s);
+        copies[s.index() - before] = {s, spring.source};
+      }
+      springs[s.index()].nodes = spring.nodes;
+      part.written.push_back(s.value);
+    }
+    for (; i < idle_end; ++i) {
+      const SpringId s = part.idle[i];
+      springs[s.index()] = Spring{};
+      part.written.push_back(s.value);
+      state.springs.erase(std::find(state.springs.begin(), state.springs.end(), s));
+    }
+  }
 }
 
 }  // namespace
 
 void copy_physics_nodes(HybridMesh& mesh, const std::vector<AncestorNodeId>& nodes, const Executor& executor,
                         ChangeLog& log) {
-  std::vector<Parts> parts(nodes.size());
-  executor.for_each(nodes.size(), [&](std::size_t i) { parts[i] = parts_of(mesh, nodes[i]); });
-  for (std::size_t i = 0; i < nodes.size(); ++i) parts[i].copied = copy_node(mesh, nodes[i], parts[i], log);
-  executor.for_each(nodes.size(), [&](std::size_t i) {
-    if (parts[i].copied) give_copies(mesh, nodes[i], parts[i]);
-  });
-  for (const Parts& part : parts)
-    for (const TriangleId t : part.changed) log.triangles.push_back(t.value);
+  auto parts = in_parts<Copies>(executor, nodes.size(),
+                                [&](std::size_t i, Copies& copies) { find_copies(mesh, nodes[i], copies); });
+  const std::size_t before = mesh.buffers.nodes.size();
+  std::size_t all = before;
+  for (Copies& part : parts) {
+    part.first = all;
+    all += part.made.size();
+    for (const Copies::Change& change : part.changes) log.triangles.push_back(change.triangle.value);
+  }
+  mesh.buffers.nodes.resize(all);
+  mesh.positions.resize(all);
+  log.node_copies.resize(all - before);
+  executor.for_each(parts.size(), [&](std::size_t p) { make_copies(mesh, parts[p], log.node_copies); });
+  for (const NodeCopy& copy : log.node_copies) log.nodes.push_back(copy.node.value);
 }
 
 void update_springs(HybridMesh& mesh, const std::vector<AncestorNodeId>& nodes, const Executor& executor,
                     ChangeLog& log) {
   std::vector<AncestorEdgeId> edges;
-  for (const AncestorNodeId n : nodes)
-    for (const AncestorId t : mesh.ancestors.triangles_around(n))
-      for (const std::size_t corner = mesh.ancestors.local_node(t, n);
-           const std::size_t i : {corner, last_corner(corner)})
-        edges.push_back(mesh.ancestors.triangles[t.index()].edges[i]);
+  for (const auto& part : in_parts<std::vector<AncestorEdgeId>>(
+           executor, nodes.size(), [&](std::size_t n, std::vector<AncestorEdgeId>& around) {
+             for (const AncestorId t : mesh.ancestors.triangles_around(nodes[n]))
+               for (const std::size_t corner = mesh.ancestors.local_node(t, nodes[n]);
+                    const std::size_t i : {corner, last_corner(corner)})
+                 around.push_back(mesh.ancestors.triangles[t.index()].edges[i]);
+           }))
+    append(edges, part);
   lattice::sort_unique(edges);
 
-  std::vector<EdgeSprings> all(edges.size());
-  executor.for_each(edges.size(), [&](std::size_t i) { all[i] = springs_of(mesh, edges[i]); });
-
-  auto& springs = mesh.buffers.springs;
   const std::size_t first_copy = mesh.buffers.nodes.size() - log.node_copies.size();
   const auto before_cut = [&](NodeId n) {
     return n.index() < first_copy ? n : log.node_copies[n.index() - first_copy].source;
   };
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    auto& [wanted, old, idle] = all[i];
-    if (wanted.empty() && idle.empty()) continue;
-    EdgeState& state = edge_state_for_writing(mesh, edges[i]);
-    // The first pair that comes from that of an idle spring gets its entry.
-    for (const Pair& pair : wanted) {
-      const auto source = std::find_if(old.begin(), old.end(), [&](const auto& spring) {
-                            return spring.first == Pair{before_cut(pair[0]), before_cut(pair[1])};
-                          })->second;
-      SpringId s = source;
-      if (const auto entry = std::find(idle.begin(), idle.end(), source); entry != idle.end()) {
-        idle.erase(entry);
-        springs[s.index()].nodes = pair;
-      } else {
-        s = SpringId{springs.size()};
-        springs.push_back({pair, edges[i]});
-        state.springs.push_back(s);
-        log.spring_copies.push_back({s, source});
-      }
-      log.springs.push_back(s.value);
-    }
-    for (const SpringId s : idle) {
-      springs[s.index()] = Spring{};
-      log.springs.push_back(s.value);
-      state.springs.erase(std::find(state.springs.begin(), state.springs.end(), s));
-    }
+  auto parts = in_parts<EdgesSprings>(executor, edges.size(), [&](std::size_t i, EdgesSprings& part) {
+    find_springs(mesh, edges[i], before_cut, part);
+  });
+  auto& springs = mesh.buffers.springs;
+  const std::size_t before = springs.size();
+  std::size_t all = before;
+  for (EdgesSprings& part : parts) {
+    all += std::exchange(part.copies, all);
+    number_edge_states(mesh, part.edges, [](const EdgesSprings::Edge& e) { return e.edge; });
   }
+  springs.resize(all);
+  log.spring_copies.resize(all - before);
+  executor.for_each(parts.size(), [&](std::size_t p) { write_springs(mesh, parts[p], log.spring_copies); });
+  for (const EdgesSprings& part : parts) append(log.springs, part.written);
 }
 
 }  // namespace cut

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "cutting/arrange_triangle.hpp"
@@ -15,8 +16,8 @@
 #include "cutting/copy_physics_triangles.hpp"
 #include "cutting/cutter_memory.hpp"
 #include "cutting/detect_cutting_lines.hpp"
-#include "cutting/detect_disjoint_polygons.hpp"
 #include "cutting/edge_state.hpp"
+#include "cutting/in_parts.hpp"
 #include "cutting/meet_ends.hpp"
 #include "cutting/merge_across_edges.hpp"
 #include "cutting/merge_cut_endpoints.hpp"
@@ -93,17 +94,55 @@ void keep_stamps(HybridMesh& mesh, const TriangleWork& work, const CutContext& c
     if (work.stamps[k] == context.this_cut) stored.nodes[k].stamp = context.this_cut;
 }
 
+bool has_end_inside(const CuttingLine& line) { return line.a.inside || line.b.inside; }
+
 /// Steps 3, 4, 5, 7 and 9 on one triangle: reads what it shares with others, and writes to its own work only.
-DisjointPolygons arrange(const HybridMesh& mesh, TriangleWork& work, const CutContext& context) {
+void arrange(const HybridMesh& mesh, TriangleWork& work, const CutContext& context) {
   std::array<std::vector<LatticePoint>, 3> boundary;
   for (std::size_t i = 0; i < 3; ++i) boundary[i] = boundary_points(mesh, work.ancestor, i);
   arrange_triangle(work, boundary, context);
   // A work whose only change is a cut along one of its sides needs its polygons, too.
-  DisjointPolygons polygons = weld_slivers(mesh, work);
-  if (keeps_all_fragments(work, polygons)) return polygons;
+  work.polygons = weld_slivers(mesh, work);
+  if (keeps_all_fragments(work, work.polygons)) return;
   work.lines.clear();
   arrange_triangle(work, boundary, context);
-  return weld_slivers(mesh, work);
+  work.polygons = weld_slivers(mesh, work);
+}
+
+/// Whether a line's end that was not on a side has gone elsewhere.
+bool moved_inside(const LineEnd& end) {
+  return end.on != LineEnd::On::physics_edge && end.detected != end.point;
+}
+
+/// Whether arranging has to be told to others than the work itself: to the triangles around, or to the next
+/// cut. Most works have nothing to tell.
+bool concerns_others(const HybridMesh& mesh, const TriangleWork& work, const CutContext& context) {
+  if (!work.changed) return true;
+  const Ancestor& ancestor = mesh.ancestors.triangles[work.ancestor.index()];
+  std::size_t n = 3;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (std::ranges::find(work.cut_sections[i], 1) != work.cut_sections[i].end()) return true;
+    if (work.stamps[i] == context.this_cut && mesh.node_stamps[ancestor.nodes[i].index()] != context.this_cut)
+      return true;
+    const std::uint32_t count = work.boundary_counts[i];
+    const bool reversed = mesh.ancestors.reversed(work.ancestor, i);
+    for (std::uint32_t j = 0; j < count; ++j, ++n)
+      if (work.stamps[n] == context.this_cut &&
+          mesh.edge_state(ancestor.edges[i])->nodes[reversed ? count - 1 - j : j].stamp != context.this_cut)
+        return true;
+  }
+  return std::ranges::any_of(work.lines, [](const CuttingLine& line) {
+    return line.a.point == line.b.point || moved_inside(line.a) || moved_inside(line.b);
+  });
+}
+
+/// Gives back what only arranging needs: what is in the cache serves the next triangle then, and the heap
+/// need not take back all of it at once, which it does in one thread.
+void forget_graph(TriangleWork& work) {
+  const auto free = [](auto&... lists) { (std::remove_reference_t<decltype(lists)>().swap(lists), ...); };
+  free(work.graph.points, work.graph.edges, work.stamps, work.rendered, work.old_section_polygons,
+       work.cut_sections, work.polygons.graph_edge, work.before.edges, work.before.section_polygons);
+  for (RenderPolygon& polygon : work.before.polygons) free(polygon.loop_ends);
 }
 
 /// Frees what the entries hold, which is many small pieces, on all threads.
@@ -114,13 +153,13 @@ void give_back(std::vector<T>& list, const Executor& executor) {
 
 /// Notes where the ends of a work's lines that were not on a side were detected, and where they went; and
 /// where lines have vanished without a node.
-void remember_centres(const TriangleWork& work, const Arrangement& now, ClusterCentres& centres) {
+void remember_centres(const TriangleWork& work, ClusterCentres& centres) {
+  const std::vector<ArrangementNode>& nodes = work.polygons.arrangement.nodes;
   for (const CuttingLine& line : work.lines) {
     for (const LineEnd& end : {line.a, line.b})
-      if (end.on != LineEnd::On::physics_edge && end.detected != end.point)
-        centres.inside.push_back({work.ancestor, end.detected, end.point});
+      if (moved_inside(end)) centres.inside.push_back({work.ancestor, end.detected, end.point});
     if (line.a.point == line.b.point &&
-        std::none_of(now.nodes.begin(), now.nodes.end(),
+        std::none_of(nodes.begin(), nodes.end(),
                      [&](const ArrangementNode& n) { return n.point == line.a.point; }))
       centres.begun.push_back({work.ancestor, line.a.point});
   }
@@ -150,8 +189,9 @@ Result<Changes> Cutter::cut(HybridMesh& mesh, const TriangleMesh& cutter) {
 
   const CutContext context{memory_->distances, memory_->centres, mesh.cut_count + 1, memory_->previous_cut};
   const double slack = contact_slack(context.distances, cutter);
-  auto [works, lines] = detect_cutting_lines(
-      mesh, cutter, memory_->broad_phase.candidates(mesh, cutter, slack), slack, context.distances, executor);
+  auto [works, lines] =
+      detect_cutting_lines(mesh, cutter, memory_->broad_phase.candidates(mesh, cutter, slack, executor),
+                           slack, context.distances, executor);
   watch.lap(timings.detect);
 
   Changes nothing;
@@ -165,42 +205,46 @@ Result<Changes> Cutter::cut(HybridMesh& mesh, const TriangleMesh& cutter) {
   ++mesh.cut_count;
   memory_->previous_cut = context.this_cut;
 
-  executor.for_each(works.size(), [&](std::size_t i) { merge_cut_endpoints(mesh, works[i], context); });
-  meet_ends(mesh, works, context);
-  continue_lines(mesh, works, context);
+  std::vector<std::uint8_t> ends_inside(works.size());  // per work
+  executor.for_each(works.size(), [&](std::size_t i) {
+    merge_cut_endpoints(mesh, works[i], context);
+    ends_inside[i] = std::ranges::any_of(works[i].lines, has_end_inside) ? 1 : 0;
+  });
+  if (std::ranges::count(ends_inside, 1) > 0) {
+    meet_ends(mesh, works, context);
+    continue_lines(mesh, works, context);
+  }
   ClusterCentres next_centres;
   merge_on_physics_edges(mesh, works, context, executor, next_centres);
   watch.lap(timings.merge_endpoints);
 
-  std::vector<DisjointPolygons> polygons(works.size());
-  executor.for_each(works.size(), [&](std::size_t i) { polygons[i] = arrange(mesh, works[i], context); });
-  for (std::size_t i = 0; i < works.size(); ++i)
-    remember_centres(works[i], polygons[i].arrangement, next_centres);
+  std::vector<std::uint8_t> tells(works.size());  // per work
+  executor.for_each(works.size(), [&](std::size_t i) {
+    arrange(mesh, works[i], context);
+    tells[i] = concerns_others(mesh, works[i], context) ? 1 : 0;
+    if (tells[i] == 0) forget_graph(works[i]);
+  });
+  std::vector<AncestorNodeId> touched;  // physics nodes whose copies may have come apart
+  for (std::size_t i = 0; i < works.size(); ++i) {
+    if (tells[i] == 0) continue;
+    TriangleWork& work = works[i];
+    remember_centres(work, next_centres);
+    for (const AncestorEdgeId e : cut_edge_sections(mesh, work)) {
+      work.changed = true;
+      append(touched, mesh.ancestors.edges[e.index()].nodes);
+    }
+    keep_stamps(mesh, work, context);
+    forget_graph(work);
+  }
   std::sort(next_centres.on_edges.begin(), next_centres.on_edges.end());
   std::sort(next_centres.inside.begin(), next_centres.inside.end());
   lattice::sort_unique(next_centres.begun);
   memory_->centres = std::move(next_centres);
+  std::erase_if(works, [](const TriangleWork& w) { return !w.changed; });
   ChangeLog log;
-  std::vector<AncestorNodeId> touched;  // physics nodes whose copies may have come apart
-  for (std::size_t i = 0; i < works.size(); ++i) {
-    TriangleWork& work = works[i];
-    for (const AncestorEdgeId e : cut_edge_sections(mesh, work)) {
-      work.changed = true;
-      for (const AncestorNodeId n : mesh.ancestors.edges[e.index()].nodes) touched.push_back(n);
-    }
-    keep_stamps(mesh, work, context);
-    if (work.changed && copy_physics_triangles(mesh, work, std::move(polygons[i]), log))
-      for (const AncestorNodeId n : mesh.ancestors.triangles[work.ancestor.index()].nodes)
-        touched.push_back(n);
-  }
+  append(touched, copy_physics_triangles(mesh, works, executor, log));
   watch.lap(timings.arrange);
-  works.erase(std::remove_if(works.begin(), works.end(), [](const TriangleWork& w) { return !w.changed; }),
-              works.end());
   if (works.empty()) return nothing;
-  for (const TriangleWork& work : works) {
-    const auto& edges = mesh.ancestors.triangles[work.ancestor.index()].edges;
-    log.edges.insert(log.edges.end(), edges.begin(), edges.end());
-  }
 
   lattice::sort_unique(touched);
   copy_physics_nodes(mesh, touched, executor, log);
@@ -217,7 +261,6 @@ Result<Changes> Cutter::cut(HybridMesh& mesh, const TriangleMesh& cutter) {
   changes.version_before = mesh.topology_version;
   changes.version_after = ++mesh.topology_version;
   give_back(works, executor);
-  give_back(polygons, executor);
   watch.lap(timings.publish);
   return changes;
 }

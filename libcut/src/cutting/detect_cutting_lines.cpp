@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "cutting/clip_to_polygon.hpp"
+#include "cutting/in_parts.hpp"
 #include "cutting/intersect_triangles.hpp"
 #include "cutting/join_collinear_lines.hpp"
-#include "lattice/sort_unique.hpp"
 
 namespace cut {
 namespace {
@@ -33,20 +33,15 @@ class PolygonsByFragment {
   std::vector<std::pair<TriangleId, std::uint32_t>> sorted_;
 };
 
-/// What detection finds on one ancestor.
-struct Detected {
-  TriangleWork work;                ///< without lines when none of them cuts
-  std::vector<DetectedLine> lines;  ///< before they were clipped
-};
-
 /// @param candidates those of one ancestor, sorted
-Detected detect_on_ancestor(const HybridMesh& mesh, const std::vector<CutterFace>& faces,
-                            std::span<const CandidatePair> candidates, double slack,
-                            const MergeDistances& distances) {
-  const AncestorId ancestor = mesh.buffers.triangles[candidates[0].triangle.index()].ancestor;
+/// @param work stays without lines when none of them cuts
+/// @param all gets the lines before they are clipped
+void detect_on_ancestor(const HybridMesh& mesh, const std::vector<CutterFace>& faces,
+                        std::span<const CandidatePair> candidates, double slack,
+                        const MergeDistances& distances, TriangleWork& work, std::vector<DetectedLine>& all) {
+  const AncestorId ancestor = candidates[0].ancestor;
   const Arrangement* arrangement = mesh.arrangement(ancestor);
   PolygonsByFragment polygons(arrangement);
-  Detected detected;
   std::vector<LatticePoint> points;
   std::vector<CuttingLine> lines;
   for (const CandidatePair& c : candidates) {
@@ -57,17 +52,16 @@ Detected detect_on_ancestor(const HybridMesh& mesh, const std::vector<CutterFace
     for (std::size_t k = 0; k + 1 < points.size(); ++k)
       lines.push_back({polygon, {points[k]}, {points[k + 1]}});
   }
-  if (lines.empty()) return detected;
+  if (lines.empty()) return;
   join_collinear_lines(lines);
-  for (const CuttingLine& l : lines) detected.lines.push_back({ancestor, l.a.point, l.b.point});
-  TriangleWork& work = detected.work = make_work(mesh, ancestor, distances);
+  for (const CuttingLine& l : lines) all.push_back({ancestor, l.a.point, l.b.point});
+  work = make_work(mesh, ancestor, distances);
   if (arrangement != nullptr && arrangement->polygons.size() > 1) {
     for (const CuttingLine& l : lines)
       clip_to_polygon(work.before, l.polygon, l.a.point, l.b.point, work.lines);
   } else {
     work.lines = std::move(lines);
   }
-  return detected;
 }
 
 }  // namespace
@@ -92,7 +86,7 @@ double contact_slack(const MergeDistances& distances, const TriangleMesh& cutter
 double farthest_corner(const MergeDistances& distances) { return distances.edge * 0x1p-6 / 0x1p-46; }
 
 Detection detect_cutting_lines(const HybridMesh& mesh, const TriangleMesh& cutter,
-                               std::vector<CandidatePair> candidates, double slack,
+                               std::span<const CandidatePair> candidates, double slack,
                                const MergeDistances& distances, const Executor& executor) {
   std::vector<CutterFace> faces(cutter.triangles.size());
   std::vector<std::uint8_t> has_area(cutter.triangles.size());
@@ -102,39 +96,38 @@ Detection detect_cutting_lines(const HybridMesh& mesh, const TriangleMesh& cutte
         faces[i].prepare({cutter.positions[t[0]], cutter.positions[t[1]], cutter.positions[t[2]]}) ? 1 : 0;
   }
   // Boxes of slanting triangles are wide: most candidates lie on one side of the cutter's plane.
-  std::erase_if(candidates, [&](const CandidatePair& c) {
-    if (has_area[c.cutter_triangle] == 0) return true;
+  const auto may_meet = [&](const CandidatePair& c) {
     const auto& n = mesh.buffers.triangles[c.triangle.index()].nodes;
-    return faces[c.cutter_triangle].misses(
-        {mesh.positions[n[0].index()], mesh.positions[n[1].index()], mesh.positions[n[2].index()]}, slack);
-  });
-  const auto ancestor_of = [&](const CandidatePair& c) {
-    return mesh.buffers.triangles[c.triangle.index()].ancestor;
+    return has_area[c.cutter_triangle] != 0 &&
+           !faces[c.cutter_triangle].misses(
+               {mesh.positions[n[0].index()], mesh.positions[n[1].index()], mesh.positions[n[2].index()]},
+               slack);
   };
-  std::sort(candidates.begin(), candidates.end(), [&](const CandidatePair& a, const CandidatePair& b) {
-    const AncestorId ancestor_a = ancestor_of(a);
-    const AncestorId ancestor_b = ancestor_of(b);
-    return std::tie(ancestor_a, a.triangle, a.cutter_triangle) <
-           std::tie(ancestor_b, b.triangle, b.cutter_triangle);
-  });
+  std::vector<CandidatePair> pairs;
+  for (const auto& part : in_parts<std::vector<CandidatePair>>(
+           executor, candidates.size(), [&](std::size_t i, std::vector<CandidatePair>& meet) {
+             if (may_meet(candidates[i])) meet.push_back(candidates[i]);
+           }))
+    append(pairs, part);
+  if (!std::ranges::is_sorted(pairs)) std::ranges::sort(pairs);
 
   std::vector<std::size_t> first;  // where each ancestor's candidates begin
-  for (std::size_t i = 0; i < candidates.size(); ++i)
-    if (i == 0 || ancestor_of(candidates[i]) != ancestor_of(candidates[i - 1])) first.push_back(i);
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (i == 0 || pairs[i].ancestor != pairs[i - 1].ancestor) first.push_back(i);
   std::vector<TriangleWork> works(first.size());
-  std::vector<std::vector<DetectedLine>> lines(first.size());
-  executor.for_each(first.size(), [&](std::size_t k) {
-    const std::size_t end = k + 1 < first.size() ? first[k + 1] : candidates.size();
-    Detected detected =
-        detect_on_ancestor(mesh, faces, {candidates.data() + first[k], end - first[k]}, slack, distances);
-    works[k] = std::move(detected.work);
-    lines[k] = std::move(detected.lines);
-  });
   Detection detection;
+  for (const auto& part : in_parts<std::vector<DetectedLine>>(
+           executor, first.size(), [&](std::size_t k, std::vector<DetectedLine>& lines) {
+             const std::size_t end = k + 1 < first.size() ? first[k + 1] : pairs.size();
+             detect_on_ancestor(mesh, faces, {pairs.data() + first[k], end - first[k]}, slack, distances,
+                                works[k], lines);
+           }))
+    append(detection.lines, part);
   detection.works = std::move(works);
   std::erase_if(detection.works, [](const TriangleWork& work) { return work.lines.empty(); });
-  for (const auto& found : lines) detection.lines.insert(detection.lines.end(), found.begin(), found.end());
-  lattice::sort_unique(detection.lines);
+  if (!std::ranges::is_sorted(detection.lines)) std::ranges::sort(detection.lines);
+  const auto repeated = std::ranges::unique(detection.lines);
+  detection.lines.erase(repeated.begin(), repeated.end());
   return detection;
 }
 

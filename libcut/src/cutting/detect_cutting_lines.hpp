@@ -4,6 +4,7 @@
 /// as they were before they were clipped, by which a cut that is made again is known.
 #pragma once
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "cut/executor.hpp"
@@ -16,8 +17,10 @@ namespace cut {
 
 /// A physics triangle and a cutter triangle that may intersect.
 struct CandidatePair {
+  AncestorId ancestor;  ///< of the physics triangle
   TriangleId triangle;
   std::uint32_t cutter_triangle;
+  auto operator<=>(const CandidatePair&) const = default;
 };
 
 /// A physics triangle where it is now.
@@ -47,7 +50,7 @@ struct Detection {
 
 /// The result does not depend on the order of `candidates`. O(candidates · log).
 Detection detect_cutting_lines(const HybridMesh& mesh, const TriangleMesh& cutter,
-                               std::vector<CandidatePair> candidates, double slack,
+                               std::span<const CandidatePair> candidates, double slack,
                                const MergeDistances& distances, const Executor& executor);
 
 }  // namespace cut

@@ -1,17 +1,16 @@
 #include "cutting/edge_state.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace cut {
 
 EdgeState& edge_state_for_writing(HybridMesh& mesh, AncestorEdgeId edge) {
-  std::uint32_t& index = mesh.edge_state_of[edge.index()];
-  if (index == HybridMesh::none) {
-    index = static_cast<std::uint32_t>(mesh.edge_states.size());
-    mesh.edge_states.emplace_back();
-    mesh.edge_states.back().springs.push_back(SpringId{edge.index()});
-  }
-  return mesh.edge_states[index];
+  if (mesh.edge_state_of[edge.index()] == HybridMesh::none)
+    number_edge_states(mesh, std::array{edge}, [](AncestorEdgeId e) { return e; });
+  EdgeState& state = mesh.edge_states[mesh.edge_state_of[edge.index()]];
+  if (state.cut.empty()) state = {{}, {0}, {SpringId{edge.index()}}};
+  return state;
 }
 
 void insert_boundary_node(EdgeState& state, std::int32_t t, std::uint32_t stamp) {

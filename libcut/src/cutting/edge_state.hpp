@@ -9,6 +9,17 @@
 
 namespace cut {
 
+/// Numbers the states of edges that have none yet. The next call for writing makes them, which may then run
+/// in parallel. @param edge_of what gives an entry's edge
+template <class List, class EdgeOf>
+void number_edge_states(HybridMesh& mesh, const List& list, const EdgeOf& edge_of) {
+  std::size_t next = mesh.edge_states.size();
+  for (const auto& entry : list)
+    if (std::uint32_t& index = mesh.edge_state_of[edge_of(entry).index()]; index == HybridMesh::none)
+      index = static_cast<std::uint32_t>(next++);
+  mesh.edge_states.resize(next, EdgeState{{}, {}, {}});
+}
+
 /// The state of an edge, made when it has none yet.
 EdgeState& edge_state_for_writing(HybridMesh& mesh, AncestorEdgeId edge);
 

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "cutting/edge_state.hpp"
+#include "cutting/in_parts.hpp"
+#include "lattice/scratch.hpp"
 #include "lattice/sort_unique.hpp"
 
 namespace cut {
@@ -17,6 +19,7 @@ struct EdgePoint {
   std::int32_t t;
   bool passes;              ///< see LineEnd
   std::int32_t merged = 0;  ///< where it went
+  bool is_node = false;     ///< makes a new node
 };
 
 /// A place from which a node of the edge attracts points.
@@ -27,10 +30,11 @@ struct Target {
   double reach;
 };
 
-std::vector<Target> targets_of(const HybridMesh& mesh, AncestorEdgeId edge, const MergeDistances& distances,
-                               const CutContext& context) {
+lattice::ScratchList<Target> targets_of(const HybridMesh& mesh, AncestorEdgeId edge,
+                                        const MergeDistances& distances, const CutContext& context,
+                                        lattice::Scratch& scratch) {
   const auto& ends = mesh.ancestors.edges[edge.index()].nodes;
-  std::vector<Target> targets;
+  lattice::ScratchList<Target> targets(&scratch);
   const auto add_node = [&](std::int32_t t, std::uint32_t stamp) {
     const bool recent = context.recent(stamp);
     targets.push_back({t, recent, t, recent ? distances.cut : distances.node});
@@ -46,7 +50,7 @@ std::vector<Target> targets_of(const HybridMesh& mesh, AncestorEdgeId edge, cons
 
 /// Sends a point to the nearest recent node within δc, else to the nearest within δn. `unit` is the length of
 /// a lattice unit, `passing_reach` what is left of δc where a line only passes.
-bool merge_to_node(EdgePoint& point, const std::vector<Target>& targets, double unit, double passing_reach) {
+bool merge_to_node(EdgePoint& point, std::span<const Target> targets, double unit, double passing_reach) {
   const Target* best = nullptr;
   for (const Target& target : targets) {
     const std::int32_t distance = std::abs(target.t - point.t);
@@ -61,10 +65,10 @@ bool merge_to_node(EdgePoint& point, const std::vector<Target>& targets, double 
   return true;
 }
 
-/// The points of one edge, by increasing t, and where they make new nodes.
+/// The points of one edge, by increasing t, and how many new nodes they make.
 struct EdgePoints {
   std::span<EdgePoint> points;
-  std::vector<std::int32_t> new_nodes{};
+  std::uint32_t new_nodes = 0;
 };
 
 /// Decides where the points of an edge go. Groups of new points within δn get one node at the point nearest
@@ -73,8 +77,9 @@ void settle(const HybridMesh& mesh, EdgePoints& on_edge, const CutContext& conte
   const AncestorEdgeId edge = on_edge.points[0].edge;
   const double unit = mesh.ancestors.rest_length(edge) / lattice_size;
   const MergeDistances distances = local_distances(context.distances, unit * lattice_size, unit);
-  std::vector<Target> targets = targets_of(mesh, edge, distances, context);
-  std::vector<EdgePoint*> fresh;
+  lattice::Scratch scratch;
+  lattice::ScratchList<Target> targets = targets_of(mesh, edge, distances, context, scratch);
+  lattice::ScratchList<EdgePoint*> fresh(&scratch);
   for (EdgePoint& p : on_edge.points)
     if (!merge_to_node(p, targets, unit, distances.node)) fresh.push_back(&p);
   if (fresh.empty()) return;
@@ -82,13 +87,14 @@ void settle(const HybridMesh& mesh, EdgePoints& on_edge, const CutContext& conte
     std::size_t last = i;
     while (last + 1 < fresh.size() && unit * (fresh[last + 1]->t - fresh[i]->t) <= distances.node) ++last;
     const std::int32_t middle = fresh[i]->t + (fresh[last]->t - fresh[i]->t) / 2;
-    const EdgePoint* centre = *std::min_element(fresh.begin() + static_cast<std::ptrdiff_t>(i),
-                                                fresh.begin() + static_cast<std::ptrdiff_t>(last) + 1,
-                                                [&](const EdgePoint* a, const EdgePoint* b) {
-                                                  return std::abs(a->t - middle) < std::abs(b->t - middle);
-                                                });
+    EdgePoint* centre = *std::min_element(fresh.begin() + static_cast<std::ptrdiff_t>(i),
+                                          fresh.begin() + static_cast<std::ptrdiff_t>(last) + 1,
+                                          [&](const EdgePoint* a, const EdgePoint* b) {
+                                            return std::abs(a->t - middle) < std::abs(b->t - middle);
+                                          });
     i = last + 1;
-    on_edge.new_nodes.push_back(centre->t);
+    centre->is_node = true;
+    ++on_edge.new_nodes;
     targets.push_back({centre->t, false, centre->t, distances.node});
   }
   for (EdgePoint& p : on_edge.points) merge_to_node(p, targets, unit, distances.node);
@@ -105,11 +111,15 @@ void merge_on_physics_edges(HybridMesh& mesh, std::vector<TriangleWork>& works, 
                      along_edge(ancestors, work.ancestor, i, end.point), end.passes};
   };
   std::vector<EdgePoint> points;
-  for (const TriangleWork& work : works)
-    for (const CuttingLine& line : work.lines)
-      for (const LineEnd& end : {line.a, line.b})
-        if (end.on == LineEnd::On::physics_edge && edge_of(end.point) < 3 && corner_of(end.point) == 3)
-          points.push_back(edge_point(work, end));
+  for (const auto& part : in_parts<std::vector<EdgePoint>>(
+           executor, works.size(), [&](std::size_t w, std::vector<EdgePoint>& on_edges) {
+             for (const CuttingLine& line : works[w].lines)
+               for (const LineEnd& end : {line.a, line.b})
+                 if (end.on == LineEnd::On::physics_edge && edge_of(end.point) < 3 &&
+                     corner_of(end.point) == 3)
+                   on_edges.push_back(edge_point(works[w], end));
+           }))
+    append(points, part);
   // Where a line ends and another one passes, there is an end.
   std::ranges::sort(points, {}, [](const EdgePoint& p) { return std::tuple(p.edge, p.t, p.passes); });
   const auto place_of = [](const EdgePoint& p) { return std::pair(p.edge, p.t); };
@@ -124,12 +134,14 @@ void merge_on_physics_edges(HybridMesh& mesh, std::vector<TriangleWork>& works, 
     i = end;
   }
   executor.for_each(edges.size(), [&](std::size_t i) { settle(mesh, edges[i], context); });
-  std::erase_if(edges, [](const EdgePoints& e) { return e.new_nodes.empty(); });
-  // States are numbered as they are made, so these are made one after the other.
-  for (const EdgePoints& e : edges) edge_state_for_writing(mesh, e.points[0].edge);
+  std::erase_if(edges, [](const EdgePoints& e) { return e.new_nodes == 0; });
+  number_edge_states(mesh, edges, [](const EdgePoints& e) { return e.points[0].edge; });
   executor.for_each(edges.size(), [&](std::size_t i) {
     EdgeState& state = edge_state_for_writing(mesh, edges[i].points[0].edge);
-    for (const std::int32_t t : edges[i].new_nodes) insert_boundary_node(state, t, context.this_cut);
+    state.nodes.reserve(state.nodes.size() + edges[i].new_nodes);
+    state.cut.reserve(state.cut.size() + edges[i].new_nodes);
+    for (const EdgePoint& p : edges[i].points)
+      if (p.is_node) insert_boundary_node(state, p.t, context.this_cut);
   });
   // Only now: a stamp set earlier would hide from the next edge that their common node was part of the
   // previous cut.
@@ -150,9 +162,12 @@ void merge_on_physics_edges(HybridMesh& mesh, std::vector<TriangleWork>& works, 
   });
 
   std::vector<AncestorId> beside;
-  for (const EdgePoints& e : edges)
-    for (const AncestorId t : ancestors.edges[e.points[0].edge.index()].triangles)
-      if (t.valid()) beside.push_back(t);
+  for (const auto& part : in_parts<std::vector<AncestorId>>(
+           executor, edges.size(), [&](std::size_t i, std::vector<AncestorId>& triangles) {
+             for (const AncestorId t : ancestors.edges[edges[i].points[0].edge.index()].triangles)
+               if (t.valid()) triangles.push_back(t);
+           }))
+    append(beside, part);
   lattice::sort_unique(beside);
   add_works(mesh, works, beside, context.distances);
 }

@@ -59,6 +59,15 @@ struct ContinuedLine {
   CuttingLine line;
 };
 
+/// The faces of a work's graph, from detect_disjoint_polygons to copy_physics_triangles.
+struct DisjointPolygons {
+  /// Complete but for physics triangles, render vertices and render triangles.
+  Arrangement arrangement;
+  std::vector<std::uint32_t> parent;       ///< per polygon: the polygon of `before` that it was part of
+  std::vector<std::uint32_t> graph_edge;   ///< per edge of the arrangement: its index in the work's graph
+  std::vector<std::int64_t> doubled_area;  ///< per polygon, in lattice units
+};
+
 /// One ancestor that this cut touches.
 struct TriangleWork {
   AncestorId ancestor;
@@ -77,6 +86,7 @@ struct TriangleWork {
       old_section_polygons{};                               ///< per section now: its polygon in `before`
   std::array<std::vector<std::uint8_t>, 3> cut_sections{};  ///< per section now: 1 where a line runs along it
   bool changed = false;                                     ///< nodes or edges differ from `before`
+  DisjointPolygons polygons{};
 };
 
 /// Where a line end of the previous cut was detected, and the node that it went to: one more place from which

@@ -1,7 +1,9 @@
 #include "cutting/triangulate_polygons.hpp"
 
 #include <algorithm>
+#include <utility>
 
+#include "cutting/in_parts.hpp"
 #include "lattice/per_thread.hpp"
 #include "lattice/sort_unique.hpp"
 #include "lattice/triangulation.hpp"
@@ -27,23 +29,42 @@ class Triangulator {
   lattice::TriangulationScratch scratch_;
 };
 
-/// Triangles of all polygons of one arrangement.
+/// Triangles of all polygons of some arrangements, one list after the other.
 struct Triangulation {
+  struct Work {
+    std::size_t triangles_end;
+    std::size_t kept;  ///< so many of its triangles take entries that the ancestor had before
+    std::size_t freed_end;
+  };
+  std::vector<Work> works;
   CornerTriangles triangles;
-  std::vector<std::size_t> ends;      ///< per polygon: where its triangles end
-  std::vector<RenderTriangleId> ids;  ///< per triangle
+  std::vector<std::size_t> ends;        ///< per polygon: where its triangles end
+  std::vector<RenderTriangleId> ids;    ///< per triangle: its entry
+  std::vector<RenderTriangleId> freed;  ///< entries that the ancestors had before and do not need any more
+  std::vector<RenderTriangleId> old;    ///< working memory
+  std::size_t next = 0;                 ///< triangle to be written, and ...
+  std::size_t next_polygon = 0;         ///< ... its polygon
 };
 
-Triangulation triangulation_of(const Arrangement& arrangement, const lattice::Metric& metric) {
-  Triangulation result;
+/// Appends those of one work.
+void triangulate(const HybridMesh& mesh, const TriangleWork& work, Triangulation& all) {
   SNIP_PER_THREAD Triangulator triangulator;
   SNIP_PER_THREAD CornerTriangles triangles;
+  const std::size_t first = all.triangles.size();
+  const Arrangement& arrangement = *mesh.arrangement(work.ancestor);
   for (const RenderPolygon& polygon : arrangement.polygons) {
-    triangulator.triangulate(arrangement, polygon, metric, triangles);
-    result.triangles.insert(result.triangles.end(), triangles.begin(), triangles.end());
-    result.ends.push_back(result.triangles.size());
+    triangulator.triangulate(arrangement, polygon, work.metric, triangles);
+    append(all.triangles, triangles);
+    all.ends.push_back(all.triangles.size());
   }
-  return result;
+  all.old.clear();
+  for (const RenderPolygon& polygon : work.before.polygons) append(all.old, polygon.triangles);
+  std::sort(all.old.begin(), all.old.end());
+  for (; all.old.size() > all.triangles.size() - first; all.old.pop_back())
+    all.freed.push_back(all.old.back());
+  append(all.ids, all.old);
+  all.ids.resize(all.triangles.size());
+  all.works.push_back({all.triangles.size(), all.old.size(), all.freed.size()});
 }
 
 RenderTriangle render_triangle(const RenderPolygon& polygon, const std::array<std::uint32_t, 3>& corners) {
@@ -52,50 +73,57 @@ RenderTriangle render_triangle(const RenderPolygon& polygon, const std::array<st
           polygon.triangle};
 }
 
-/// Entries for so many triangles: those that the ancestor had before, then free ones, then new ones.
-std::vector<RenderTriangleId> allocate(HybridMesh& mesh, const Arrangement& before, std::size_t count,
-                                       ChangeLog& log) {
+/// Entries for all triangles that have none: free ones, then new ones.
+void allocate(HybridMesh& mesh, std::vector<Triangulation>& parts, ChangeLog& log) {
   auto& entries = mesh.buffers.render_triangles;
   auto& free = mesh.free_render_triangles;
-  std::vector<RenderTriangleId> ids;
-  for (const RenderPolygon& polygon : before.polygons)
-    ids.insert(ids.end(), polygon.triangles.begin(), polygon.triangles.end());
-  std::sort(ids.begin(), ids.end());
-  for (; ids.size() > count; ids.pop_back()) {
-    entries[ids.back().index()] = RenderTriangle{};
-    log.render_triangles.push_back(ids.back().value);
-    free.push_back(ids.back());
+  std::size_t next = entries.size();
+  for (Triangulation& part : parts) {
+    std::size_t triangle = 0, freed = 0;
+    for (const Triangulation::Work& work : part.works) {
+      for (; freed < work.freed_end; ++freed) {
+        const RenderTriangleId id = part.freed[freed];
+        entries[id.index()] = RenderTriangle{};
+        log.render_triangles.push_back(id.value);
+        free.push_back(id);
+      }
+      for (triangle += work.kept; triangle < work.triangles_end; ++triangle) {
+        if (free.empty()) {
+          part.ids[triangle] = RenderTriangleId{next++};
+        } else {
+          part.ids[triangle] = free.back();
+          free.pop_back();
+        }
+      }
+    }
   }
-  for (; ids.size() < count && !free.empty(); free.pop_back()) ids.push_back(free.back());
-  for (; ids.size() < count; entries.emplace_back()) ids.emplace_back(entries.size());
-  for (const RenderTriangleId id : ids) log.render_triangles.push_back(id.value);
-  return ids;
+  entries.resize(next);
+}
+
+/// Writes the triangles of the next arrangement.
+void write_triangles(HybridMesh& mesh, Arrangement& arrangement, Triangulation& part) {
+  for (RenderPolygon& polygon : arrangement.polygons) {
+    const std::size_t end = part.ends[part.next_polygon++];
+    const auto id = [&](std::size_t i) { return part.ids.begin() + static_cast<std::ptrdiff_t>(i); };
+    polygon.triangles.assign(id(part.next), id(end));
+    for (; part.next < end; ++part.next)
+      mesh.buffers.render_triangles[part.ids[part.next].index()] =
+          render_triangle(polygon, part.triangles[part.next]);
+  }
 }
 
 }  // namespace
 
 void triangulate_polygons(HybridMesh& mesh, std::span<const TriangleWork> works, const Executor& executor,
                           ChangeLog& log) {
-  std::vector<Triangulation> triangulations(works.size());
-  executor.for_each(works.size(), [&](std::size_t i) {
-    triangulations[i] = triangulation_of(*mesh.arrangement(works[i].ancestor), works[i].metric);
+  auto parts = in_parts<Triangulation>(
+      executor, works.size(), [&](std::size_t i, Triangulation& part) { triangulate(mesh, works[i], part); });
+  allocate(mesh, parts, log);
+  for_parts(executor, works.size(), parts, [&](std::size_t i, Triangulation& part) {
+    write_triangles(mesh, mesh.arrangements[mesh.arrangement_of[works[i].ancestor.index()]], part);
   });
-  for (std::size_t i = 0; i < works.size(); ++i)
-    triangulations[i].ids = allocate(mesh, works[i].before, triangulations[i].triangles.size(), log);
-  executor.for_each(works.size(), [&](std::size_t i) {
-    const Triangulation triangulation = std::move(triangulations[i]);
-    std::size_t next = 0;
-    Arrangement& arrangement = mesh.arrangements[mesh.arrangement_of[works[i].ancestor.index()]];
-    for (std::size_t p = 0; p < arrangement.polygons.size(); ++p) {
-      RenderPolygon& polygon = arrangement.polygons[p];
-      polygon.triangles.assign(
-          triangulation.ids.begin() + static_cast<std::ptrdiff_t>(next),
-          triangulation.ids.begin() + static_cast<std::ptrdiff_t>(triangulation.ends[p]));
-      for (; next < triangulation.ends[p]; ++next)
-        mesh.buffers.render_triangles[triangulation.ids[next].index()] =
-            render_triangle(polygon, triangulation.triangles[next]);
-    }
-  });
+  for (const Triangulation& part : parts)
+    for (const RenderTriangleId id : part.ids) log.render_triangles.push_back(id.value);
 }
 
 void triangulate_again(HybridMesh& mesh, std::span<const std::pair<AncestorId, std::uint32_t>> polygons,
