@@ -239,7 +239,8 @@ TEST_CASE("The solver's loops for AVX2 give the bits of the plain ones") {
   }
   for (std::size_t n = 0; n < 4 * fours; ++n)
     start.inverse_mass.push_back(n < nodes && n % 5 != 0 ? 1 + number() : 0);
-  for (auto* v : {&start.change, &start.residual, &start.preconditioned, &start.direction, &start.product})
+  for (auto* v : {&start.change, &start.right, &start.residual, &start.preconditioned, &start.direction,
+                  &start.product})
     *v = vectors(4 * fours);
   cut::CoarseGrid grid;
   for (std::size_t n = 0; n < nodes; ++n) {
@@ -258,7 +259,7 @@ TEST_CASE("The solver's loops for AVX2 give the bits of the plain ones") {
                              kernels.multiply(w, w.direction.data(), w.product.data(), 7, fours);
     const double left = kernels.advance(w, 0.3, 0, fours), size = kernels.correct(w, 0, fours);
     kernels.turn(w, 0.7, 0, fours);
-    kernels.add_weighted(grid.to_finer, grid.correction.data(), w.right.data(), 0, 0);
+    kernels.approach(w, 0, 6);
     kernels.add_weighted(grid.to_finer, grid.correction.data(), w.change.data(), 3, nodes);
     return std::pair{std::array{curvature, left, size}, w};
   };

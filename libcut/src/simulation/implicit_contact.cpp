@@ -12,6 +12,7 @@
 #include "cut/simulation.hpp"
 #include "mesh/vector3.hpp"
 #include "simulation/contact.hpp"
+#include "simulation/implicit_kernels.hpp"
 #include "simulation/implicit_system.hpp"
 #include "simulation/padded.hpp"
 
@@ -79,10 +80,10 @@ std::optional<Error> Simulation::settle_contacts(double tolerance) {
   for (std::size_t i = 0;; ++i) {
     if (i == surroundings.most_iterations) return not_solved(i);
     multiply(reached);
-    for (std::size_t n = 0; n < nodes; ++n) {
-      w.residual[n] = w.right[n] - w.product[n];
-      next[n] = reached[n] + 0.5 * product(block_of(w.inverses, n), w.residual[n]);
-    }
+    for_each_range(executor, w.blocks.size(), range_size,
+                   [&](std::size_t, std::size_t first, std::size_t end) {
+                     best_implicit_kernels().approach(w, first, end);
+                   });
     for (Contact& c : w.contacts) {
       const Eigen::Vector3d start = plain(velocities_[c.node]);
       const Eigen::Vector3d before = plain(reached[c.node]) + start;

@@ -119,6 +119,23 @@ SNIP_LOOP double advance_loop(ImplicitWork& work, double way, std::size_t first,
   return sum_of(sum);
 }
 
+SNIP_LOOP void approach_loop(ImplicitWork& work, std::size_t first, std::size_t last) {
+  for (std::size_t i = first; i < last; ++i) {
+    const PaddedVector *const right = &work.right[4 * i], *const product = &work.product[4 * i],
+                              *const reached = &work.direction[4 * i];
+    Four x, y, z, ax, ay, az, px, py, pz;
+    columns(right, right + 1, right + 2, right + 3, x, y, z);
+    columns(product, product + 1, product + 2, product + 3, ax, ay, az);
+    x -= ax;
+    y -= ay;
+    z -= az;
+    store_columns(&work.residual[4 * i], x, y, z);
+    times(work.inverses[i], x, y, z, px, py, pz);
+    columns(reached, reached + 1, reached + 2, reached + 3, x, y, z);
+    store_columns(&work.preconditioned[4 * i], x + 0.5 * px, y + 0.5 * py, z + 0.5 * pz);
+  }
+}
+
 SNIP_LOOP void add_row(const WeightRows& rows, std::size_t row, const PaddedVector* from, Four& sum) {
   for (std::size_t k = rows.begins[row]; k < rows.begins[row + 1]; ++k) {
     Four v;
@@ -170,6 +187,9 @@ struct Portable {
   static double advance(ImplicitWork& work, double way, std::size_t first, std::size_t last) {
     return advance_loop(work, way, first, last);
   }
+  static void approach(ImplicitWork& work, std::size_t first, std::size_t last) {
+    approach_loop(work, first, last);
+  }
   static double correct(ImplicitWork& work, std::size_t first, std::size_t last) {
     return correct_loop(work, first, last);
   }
@@ -180,7 +200,7 @@ struct Portable {
                            std::size_t first, std::size_t last) {
     add_weighted_loop(rows, from, to, first, last);
   }
-  static constexpr ImplicitKernels all{multiply, advance, correct, turn, add_weighted};
+  static constexpr ImplicitKernels all{multiply, advance, approach, correct, turn, add_weighted};
 };
 
 #if defined(__x86_64__)
@@ -192,6 +212,9 @@ struct Avx2 {
   SNIP_AVX2 static double advance(ImplicitWork& work, double way, std::size_t first, std::size_t last) {
     return advance_loop(work, way, first, last);
   }
+  SNIP_AVX2 static void approach(ImplicitWork& work, std::size_t first, std::size_t last) {
+    approach_loop(work, first, last);
+  }
   SNIP_AVX2 static double correct(ImplicitWork& work, std::size_t first, std::size_t last) {
     return correct_loop(work, first, last);
   }
@@ -202,7 +225,7 @@ struct Avx2 {
                                      std::size_t first, std::size_t last) {
     add_weighted_loop(rows, from, to, first, last);
   }
-  static constexpr ImplicitKernels all{multiply, advance, correct, turn, add_weighted};
+  static constexpr ImplicitKernels all{multiply, advance, approach, correct, turn, add_weighted};
 };
 #endif
 

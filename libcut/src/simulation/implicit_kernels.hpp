@@ -14,6 +14,8 @@ struct ImplicitKernels {
   /// Goes `way` along the direction: change and residual. Leaves inverses · residual in `preconditioned`.
   /// Returns Σ |residual|²/m: of impulses, twice the energy that they give to nodes at rest.
   double (*advance)(ImplicitWork& work, double way, std::size_t first, std::size_t last);
+  /// residual = right - product, and half of inverses · residual more than `direction` in `preconditioned`.
+  void (*approach)(ImplicitWork& work, std::size_t first, std::size_t last);
   /// Adds to free nodes of `preconditioned` what the finest grid says. Returns residual · preconditioned.
   double (*correct)(ImplicitWork& work, std::size_t first, std::size_t last);
   /// direction = preconditioned + part · direction.
