@@ -74,7 +74,7 @@ class ThreadPool {
   void help(std::size_t thread) {
     for (std::size_t done = 0;;) {
       // Loops often follow each other closely, and waking up takes longer than many a loop.
-      for (int i = 0; i < patience && loops_ == done; ++i) rest();
+      for (int i = 0; i < patience_between_loops && loops_ == done; ++i) rest();
       std::unique_lock lock(mutex_);
       begin_.wait(lock, [&] { return loops_ != done; });
       if (ends_) return;
@@ -99,6 +99,8 @@ class ThreadPool {
   }
 
   static constexpr int patience = 2000;
+  /// Between the loops of a cut one thread works for up to some tenths of a millisecond.
+  static constexpr int patience_between_loops = 20'000;
   std::mutex mutex_;
   std::condition_variable begin_;
   std::atomic<std::size_t> loops_ = 0;    ///< number of the loop, so that a helper takes part in it once
