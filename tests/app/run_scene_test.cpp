@@ -275,10 +275,9 @@ TEST_CASE("moving anchors: two for a node, and one that is too fast, are named")
   CHECK(message(R"({"nodes": [1, 2]}, {"nodes": [3], )" + up) == "no error");
   CHECK(message(R"({"nodes": [1, 2]}, {"nodes": [2, 3], )" + up) ==
         "s.json:2: /anchors/1: node 2 has an anchor already, and one of the two moves");
-  CHECK(
-      message(R"({"nodes": [1, 2], "keyframes": [{"at": 1e-4, "move": [0, 100, 0]}]})") ==
-      "frame 1 (0 s): s.json:2: /anchors/0: it takes node 1 further in a time step of 0.001 s than "
-      "longest_way, 2.83 m");
+  CHECK(message(R"({"nodes": [1, 2], "keyframes": [{"at": 1e-4, "move": [0, 100, 0]}]})") ==
+        "frame 1 (0 s): s.json:2: /anchors/0: it takes node 1 further in a time step of 0.001 s than "
+        "longest_way, 2.83 m");
 }
 
 TEST_CASE("mass and density say the same in two ways") {
