@@ -117,11 +117,13 @@ Detection detect_cutting_lines(const HybridMesh& mesh, const TriangleMesh& cutte
   std::vector<TriangleWork> works(first.size());
   Detection detection;
   for (const auto& part : in_parts<std::vector<DetectedLine>>(
-           executor, first.size(), [&](std::size_t k, std::vector<DetectedLine>& lines) {
+           executor, first.size(),
+           [&](std::size_t k, std::vector<DetectedLine>& lines) {
              const std::size_t end = k + 1 < first.size() ? first[k + 1] : pairs.size();
              detect_on_ancestor(mesh, faces, {pairs.data() + first[k], end - first[k]}, slack, distances,
                                 works[k], lines);
-           }))
+           },
+           1))
     append(detection.lines, part);
   detection.works = std::move(works);
   std::erase_if(detection.works, [](const TriangleWork& work) { return work.lines.empty(); });

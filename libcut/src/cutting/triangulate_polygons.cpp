@@ -117,11 +117,15 @@ void write_triangles(HybridMesh& mesh, Arrangement& arrangement, Triangulation& 
 void triangulate_polygons(HybridMesh& mesh, std::span<const TriangleWork> works, const Executor& executor,
                           ChangeLog& log) {
   auto parts = in_parts<Triangulation>(
-      executor, works.size(), [&](std::size_t i, Triangulation& part) { triangulate(mesh, works[i], part); });
+      executor, works.size(), [&](std::size_t i, Triangulation& part) { triangulate(mesh, works[i], part); },
+      1);
   allocate(mesh, parts, log);
-  for_parts(executor, works.size(), parts, [&](std::size_t i, Triangulation& part) {
-    write_triangles(mesh, mesh.arrangements[mesh.arrangement_of[works[i].ancestor.index()]], part);
-  });
+  for_parts(
+      executor, works.size(), parts,
+      [&](std::size_t i, Triangulation& part) {
+        write_triangles(mesh, mesh.arrangements[mesh.arrangement_of[works[i].ancestor.index()]], part);
+      },
+      1);
   for (const Triangulation& part : parts)
     for (const RenderTriangleId id : part.ids) log.render_triangles.push_back(id.value);
 }
