@@ -3,10 +3,10 @@
 // cannot be replaced by it, so that there this is left out.
 #if defined(__has_feature)
 #if __has_feature(thread_sanitizer)
-#define SNIP_OWN_NEW
+#define SNIP_THREAD_SANITIZER
 #endif
 #endif
-#ifndef SNIP_OWN_NEW
+#ifndef SNIP_THREAD_SANITIZER
 #include <doctest/doctest.h>
 
 #include <cstdlib>

@@ -34,13 +34,13 @@ Result<Anchors> Anchors::hold(const Scene& scene, const Mesh& cloth, const cut::
     if (!any) return Error{fmt::format("{}: no node of the cloth is there", anchor.place)};
     result.any_moves_ |= !anchor.keyframes.empty();
   }
+  result.longest_way_ = longest_way(scene, mesh);
   return result;
 }
 
 Result<> Anchors::aim(const Scene& scene, double to, const cut::HybridMesh& mesh,
                       cut::Simulation& simulation) const {
   if (!any_moves_) return {};
-  const double way = longest_way(scene, mesh);
   for (std::size_t n = 0; n < mesh.positions.size(); ++n) {
     const std::size_t ancestor = mesh.buffers.nodes[n].index();
     if (anchor_of_[ancestor] == none || !simulation.anchored(cut::NodeId{n})) continue;
@@ -49,10 +49,10 @@ Result<> Anchors::aim(const Scene& scene, double to, const cut::HybridMesh& mesh
     const Eigen::Vector3d target =
         placed(mesh.ancestors.rest_positions[ancestor], anchor.axis, keyframe_at(anchor.keyframes, to));
     const Eigen::Vector3d velocity = (target - mesh.positions[n]) / scene.frame_time();
-    if (!(velocity.cwiseAbs().maxCoeff() * scene.time_step <= way))
+    if (!(velocity.cwiseAbs().maxCoeff() * scene.time_step <= longest_way_))
       return Error{
           fmt::format("{}: it takes node {} further in a time step of {} s than longest_way, {:.3g} m",
-                      anchor.place, mesh.ancestors.input_node[ancestor], scene.time_step, way)};
+                      anchor.place, mesh.ancestors.input_node[ancestor], scene.time_step, longest_way_)};
     simulation.set_velocity(cut::NodeId{n}, velocity);
   }
   return {};

@@ -29,6 +29,7 @@ class Anchors {
   static constexpr std::uint32_t none = 0xffffffffu;
   std::vector<std::uint32_t> anchor_of_;  ///< per node of the uncut mesh
   bool any_moves_ = false;
+  double longest_way_ = 0;  ///< in a time step
 };
 
 }  // namespace snip

@@ -181,7 +181,7 @@ class Simulation {
   std::vector<PaddedVector> positions_;        ///< work space of `step`
   std::vector<PaddedVector> forces_;           ///< work space of `step`
   /// Work space of `step` for positions and velocities and the next ones: for nodes with springs in diagonals
-  /// x, y and z each in an array of its own, for the others vectors.
+  /// x, y and z each in an array of its own, by slot vectors for the others and for what lists name.
   std::vector<CacheLine> columns_;
   std::vector<PaddedVector> vectors_;
   std::vector<double> inverse_mass_at_slots_;

@@ -1,7 +1,9 @@
 #include "cutting/change_log.hpp"
-#include "lattice/sort_unique.hpp"
 
 #include <utility>
+
+#include "cutting/in_parts.hpp"
+#include "lattice/sort_unique.hpp"
 
 namespace cut {
 namespace {
@@ -47,8 +49,7 @@ Changes publish(const HybridMesh& mesh, ChangeLog&& log, const Executor& executo
   });
   for (const auto& entry : changes.triangles.entries) {
     if (!entry.value.ancestor.valid()) continue;
-    const auto& edges = mesh.ancestors.triangles[entry.value.ancestor.index()].edges;
-    log.edges.insert(log.edges.end(), edges.begin(), edges.end());
+    append(log.edges, mesh.ancestors.triangles[entry.value.ancestor.index()].edges);
   }
   lattice::sort_unique(log.edges);
   changes.edges = std::move(log.edges);

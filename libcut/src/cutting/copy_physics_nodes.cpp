@@ -196,8 +196,7 @@ void find_springs(const HybridMesh& mesh, AncestorEdgeId e, const BeforeCut& bef
       wanted.push_back(pair);
     }
   }
-  std::sort(wanted.begin(), wanted.end());
-  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+  lattice::sort_unique(wanted);
   lattice::ScratchList<std::pair<Pair, SpringId>> old(&scratch);
   lattice::ScratchList<SpringId> idle(&scratch);
   const auto look_at = [&](SpringId s) {

@@ -71,9 +71,8 @@ void copy_triangles(HybridMesh& mesh, TriangleWork& work, Added& added, std::spa
   mesh.arrangements[index] = std::move(arrangement);
   work.polygons = {};
   const Ancestor& ancestor = mesh.ancestors.triangles[work.ancestor.index()];
-  added.edges.insert(added.edges.end(), ancestor.edges.begin(), ancestor.edges.end());
-  if (added.written.size() > written)
-    added.touched.insert(added.touched.end(), ancestor.nodes.begin(), ancestor.nodes.end());
+  append(added.edges, ancestor.edges);
+  if (added.written.size() > written) append(added.touched, ancestor.nodes);
 }
 
 }  // namespace

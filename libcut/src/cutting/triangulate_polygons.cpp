@@ -173,8 +173,7 @@ void update_vertex_nodes(HybridMesh& mesh, const Executor& executor, ChangeLog& 
         for (const PolygonCorner& c : polygon.corners)
           if (update(c.vertex, polygon.triangle)) updated[i].push_back(c.vertex.value);
   });
-  for (const auto& list : updated)
-    log.render_vertices.insert(log.render_vertices.end(), list.begin(), list.end());
+  for (const auto& list : updated) append(log.render_vertices, list);
 }
 
 }  // namespace cut

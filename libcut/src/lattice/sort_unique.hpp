@@ -27,8 +27,8 @@ concept Number = std::same_as<T, std::uint32_t> || is_id<T>;
 
 /// Numbers, when they lie so close together that to set a bit for each takes less time than sorting.
 /// @return false when they do not: then nothing was done. O(n)
-template <Number T>
-bool sort_unique_by_bits(std::vector<T>& list) {
+template <Number T, class Allocator>
+bool sort_unique_by_bits(std::vector<T, Allocator>& list) {
   if (list.size() < 64) return false;
   std::uint32_t least = number_of(list[0]), most = least;
   for (const T& entry : list) {
@@ -52,8 +52,8 @@ bool sort_unique_by_bits(std::vector<T>& list) {
 }
 
 /// O(n log n).
-template <class T>
-void sort_unique(std::vector<T>& list) {
+template <class T, class Allocator>
+void sort_unique(std::vector<T, Allocator>& list) {
   if constexpr (Number<T>)
     if (sort_unique_by_bits(list)) return;
   std::sort(list.begin(), list.end());

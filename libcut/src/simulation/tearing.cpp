@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "lattice/sort_unique.hpp"
 #include "mesh/vector3.hpp"
 #include "simulation/renders_corner.hpp"
 #include "simulation/tear_line.hpp"
@@ -53,8 +54,7 @@ std::vector<Fragment> overstretched(const HybridMesh& mesh, double squared_limit
       if (t.valid())
         for (std::size_t p = 0; p < mesh.fragment_count(t); ++p) fragments.push_back({t, p});
   }
-  std::sort(fragments.begin(), fragments.end());
-  fragments.erase(std::unique(fragments.begin(), fragments.end()), fragments.end());
+  lattice::sort_unique(fragments);
   return fragments;
 }
 
